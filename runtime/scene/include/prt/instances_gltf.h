@@ -1,7 +1,7 @@
 #pragma once
 
-// Meshes that several nodes draw, and files whose instances share transfer (PRTKIT_instances of
-// docs/format.md). Experimental.
+// Meshes that several nodes draw, and files in which the instances of a mesh share its transfer
+// (PRTKIT_instances of docs/format.md). Experimental.
 
 #include "prt/gltf.h"
 #include "prt/instance_relighter.h"
@@ -13,105 +13,126 @@
 
 namespace prt {
 
-/// A node that draws a mesh with a rotation, a uniform scale and a translation.
+/// A node that draws a mesh, and the node's transform to the world: a rotation, a uniform scale and a
+/// translation.
 struct MeshPlacement {
-    int node = 0;
+    int node = 0;           ///< index in the nodes of the GltfDocument
     glm::dmat3 rotation{1}; ///< from the mesh's frame to the world's
-    double scale = 1;
+    double scale = 1;       ///< length in the world over length in the mesh's frame; positive
 };
 
-/// A mesh, and the nodes that draw it with a rotation, a uniform scale and a translation, in the order of the
-/// scene.
+/// A mesh, and the nodes that draw it with a rotation, a uniform scale and a translation.
 struct SharedMesh {
-    int mesh = 0;
-    std::vector<MeshPlacement> placements;
+    int mesh = 0;                          ///< index in the meshes of the GltfDocument
+    std::vector<MeshPlacement> placements; ///< in the order in which Scene::primitives contains the nodes
 };
 
-/// Meshes of a scene whose instances can share transfer.
+/// Meshes of a scene whose instances can share transfer, and numbers of nodes that cannot share it although
+/// they draw the same mesh as another node.
 struct SharedMeshes {
-    std::vector<SharedMesh> meshes; ///< meshes with at least two placements
-    /// Numbers of nodes that cannot share the transfer of a mesh, although other nodes also draw it.
-    /// `mirrored`: the transform mirrors; `uneven`: the scale is singular or non-uniform; `bent`: skins or
-    /// morph targets deform the mesh.
-    std::size_t mirrored = 0, uneven = 0, bent = 0;
+    std::vector<SharedMesh> meshes; ///< meshes with at least two placements, in ascending order of the mesh
+    std::size_t mirrored = 0, ///< number of nodes left out: they mirror a mesh that other nodes also draw
+        uneven = 0, ///< number of nodes left out: they draw a mesh that other nodes also draw, with a
+                    ///< singular, sheared or non-uniform scale
+        bent = 0;   ///< number of nodes left out: a skin or morph targets deform their mesh, which
+                    ///< other nodes also draw
 
-    /// Returns the number of placements of all meshes.
+    /// Returns the total number of placements of all `meshes`.
     std::size_t placements() const;
 };
-/// Finds the meshes of `document` whose instances can share transfer. `scene` was extracted from it.
+/// Finds the meshes that at least two nodes draw with a rotation, a uniform scale and a translation, without
+/// a skin or morph targets. Instances of these meshes can share transfer. `document` was read with
+/// `Instancing::nodes`; `scene` was extracted from `document`.
 SharedMeshes shared_meshes(const GltfDocument& document, const Scene& scene);
 
-/// A document for writing in which shared meshes occur once.
+/// A document in which each shared mesh occurs once: the result of `with_shared_meshes`.
 struct SharedDocument {
-    GltfDocument document;       ///< must be read with `Instancing::separate`
-    std::vector<int> mesh_nodes; ///< [meshes] the node in `document` that draws the mesh in its own frame
-    std::vector<int> node_of;    ///< [nodes of the flat document] node in `document`; -1 for an instance
+    /// The document in the form of `Instancing::separate`: one additional node draws each shared mesh, in the
+    /// mesh's own frame. Contains no transfer.
+    GltfDocument document;
+    std::vector<int> mesh_nodes; ///< [shared meshes] index in `document` of the node that draws the mesh
+    std::vector<int> node_of;    ///< [nodes of the source document] index of the node in `document`; -1 if
+                                 ///< EXT_mesh_gpu_instancing replaces the node there
 };
-/// Returns a document in which the instances of `meshes` share their transfer. Instances are numbered mesh by
-/// mesh, and within a mesh placement by placement. Every other node gets a separate mesh. `document` must be
-/// read with `Instancing::nodes`.
+/// Returns a copy of `document` in which the instances of `meshes` share transfer. `document` must be read
+/// with `Instancing::nodes`. Instances are numbered mesh by mesh, and within a mesh placement by placement.
+/// Call `write_instances` for the result before you save it. Throws the errors of `parse_gltf`.
 SharedDocument with_shared_meshes(const GltfDocument& document, const std::vector<SharedMesh>& meshes);
 
-/// Instances as stored in a file: factors [instances], and boxes [meshes] of their meshes.
+/// Contents of PRTKIT_instances: data of all instances that share transfer in a file.
 struct StoredInstances {
-    std::vector<InstanceFactors> factors;
-    std::vector<InstanceBox> boxes;
+    std::vector<InstanceFactors> factors; ///< [instances] in axes of the world; mesh by mesh, and within a
+                                          ///< mesh placement by placement
+    std::vector<InstanceBox> boxes;       ///< [shared meshes] bounding box of the mesh, in the mesh's frame
 };
-/// Writes the instances, one byte per number, into a document of `with_shared_meshes`. Throws `Error` for
-/// factors outside the range of files.
+/// Writes `instances` into `document`, a result of `with_shared_meshes`, with the same numbers of instances
+/// and meshes. Each number of the factors is rounded to one byte. Throws `Error` if a number is not finite or
+/// its magnitude exceeds `kMaxInstanceFactor`.
 void write_instances(GltfDocument& document, const StoredInstances& instances);
 
-/// Returns whether instances of the file share transfer and the document was read with `Instancing::nodes`.
-/// `expanded` then computes the transfer of the instances.
+/// Returns whether instances of the file share transfer and `document` was read with `Instancing::nodes`. If
+/// true, `read_instanced` reads the transfer of the file; `read_transfer` and `read_clustered` throw `Error`.
 bool shares_instances(const GltfDocument& document);
 
-/// Returns whether instances of the file share transfer, for any `Instancing` with which the document was
-/// read.
+/// Returns whether instances of the file share transfer (PRTKIT_instances). The result does not depend on the
+/// `Instancing` with which `document` was read.
 bool holds_instances(const GltfDocument& document);
 
-/// An instance in the scene of a document that was read with `Instancing::nodes`.
+/// An instance of a file that is read twice: with `Instancing::nodes` (the flat scene) and with
+/// `Instancing::separate` (the stored scene, which contains the mesh of the instance once).
 struct FileInstance {
-    int node = 0;
-    std::size_t number = 0; ///< index in the file
-    PlacedInstance placed;
-    /// Vertex arrays of the instance, and for each the array of the stored scene that has the transfer of its
-    /// mesh.
-    std::vector<std::size_t> arrays, stored_arrays;
-    glm::dmat4 world{1}; ///< matrix of the node
+    int node = 0;           ///< index in the nodes of the document of the flat scene
+    std::size_t number = 0; ///< index of the instance in StoredInstances::factors
+    PlacedInstance placed;  ///< factors and rotation of the instance; bounding box in the mesh's frame
+    std::vector<std::size_t> arrays, ///< vertex arrays of the instance in the flat scene
+        stored_arrays;   ///< vertex arrays of the stored scene: entry i has the transfer for `arrays[i]`
+    glm::dmat4 world{1}; ///< from the mesh's frame to the file's world
 };
-/// Returns the instances of the file, with their nodes, factors, rotations, boxes and vertex arrays.
-/// `document` and `scene` are read with `Instancing::nodes`; `stored` is the scene of the same file read with
-/// `Instancing::separate`. Throws `Error` if the extension is damaged, or if a node mirrors its mesh or
-/// scales it non-uniformly.
+/// Returns the instances of the file in ascending order of their nodes. `document` was read with
+/// `Instancing::nodes`, and `scene` was extracted from it. `stored` is the scene of the same file read with
+/// `Instancing::separate`. Throws `Error` if PRTKIT_instances is missing or damaged, if a node mirrors its
+/// mesh or scales it non-uniformly, and if the vertices of `scene` and `stored` do not match.
 std::vector<FileInstance> read_instances(const GltfDocument& document, const Scene& scene,
                                          const Scene& stored);
 
-/// Contents of a file whose instances share transfer, as stored: each mesh once, in its own frame.
+/// Contents of a file whose instances share transfer.
 struct InstancedModel {
+    /// The scene of the file, read with `Instancing::separate`: each shared mesh once, in its own frame; all
+    /// other meshes in the world's frame.
     Scene stored;
-    std::optional<BakedTransfer> baked; ///< raw transfer of the receivers of `stored`, if the file has it
-    std::optional<CompressedTransfer> compressed; ///< compressed transfer, if the file has it
+    /// Raw transfer of the receivers of `stored`; empty if the file has no raw transfer.
+    std::optional<BakedTransfer> baked;
+    /// Compressed transfer of the receivers of `stored`; empty if the file has no compressed transfer.
+    std::optional<CompressedTransfer> compressed;
+    /// All instances of shared meshes, in ascending order of their nodes.
     std::vector<FileInstance> instances;
 };
-/// Returns the model of `document`, which was read from `path`. `document` and `scene` must be read with
-/// `Instancing::nodes`, and `shares_instances` must be true. Throws the errors of `read_instances`, and
-/// `Error` if there is no transfer.
+/// Returns the contents of the file of `document`. `document` must be read with `Instancing::nodes`, `scene`
+/// must be extracted from it, and `shares_instances(document)` must be true. `path` is the name of the file,
+/// for messages. Throws the errors of `read_instances`, and `Error` if the transfer is missing or damaged.
 InstancedModel read_instanced(const GltfDocument& document, const Scene& scene,
                               const std::filesystem::path& path);
 
-/// Returns the instances of a compressed model for InstanceRelighter. Boxes are relative to the origin of the
-/// scene `stored`.
+/// Returns the instances of `model` in the form that InstanceRelighter needs, in the order of
+/// `model.instances`. `model.compressed` must have a value. Boxes are relative to `model.stored.origin`, like
+/// positions of `model.stored`.
 std::vector<RelitInstance> relit_instances(const InstancedModel& model);
-/// Returns the instances for InstanceRelighter from the members of an InstancedModel.
+/// Returns `instances` in the form that InstanceRelighter needs, in the same order. `transfer` has the
+/// receivers of `stored`; `stored` is the scene that `FileInstance::stored_arrays` refers to. Boxes of the
+/// result are relative to `stored.origin`.
 std::vector<RelitInstance> relit_instances(std::span<const FileInstance> instances, const Scene& stored,
                                            const ClusteredTransfer& transfer);
 
-/// Returns the areas of the receivers of `stored`, the scene of `document` with each mesh once, m². For
-/// meshes with instances they are summed over all instances at their scales.
+/// Returns areas in m², [receivers of `stored`]: the area of the receiver itself, or for a receiver of a
+/// shared mesh the sum of its areas in all instances at their scales. `document` was read with
+/// `Instancing::separate`, and `stored` was extracted from it. Throws `Error` if a sum exceeds 1e18 times the
+/// area in the mesh's frame.
 std::vector<float> instanced_areas(const GltfDocument& document, const Scene& stored);
 
-/// Returns the transfer of all receivers of `scene`, in the world's frame. Transfer of instances is computed
-/// from the transfer of their mesh and their factors. `transfer` has the receivers of `stored`.
+/// Returns the transfer of all receivers of `scene`, in the world's frame. The transfer of an instance is
+/// computed from the transfer of its mesh and from its factors. `transfer` has the receivers of `stored`. The
+/// other arguments are those of `read_instances`. `threads` 0: all hardware threads. Throws the errors of
+/// `read_instances`, and `Error` if the result exceeds the memory limit of docs/format.md.
 Transfer expanded(const GltfDocument& document, const Scene& scene, const Scene& stored,
                   const Transfer& transfer, int threads = 0);
 

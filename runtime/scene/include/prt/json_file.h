@@ -11,25 +11,34 @@
 
 namespace prt {
 
+/// A JSON value. Its objects keep the order of their members.
 using Json = nlohmann::ordered_json;
 
 namespace json {
 
-/// Reads a JSON file. Throws `Error` for invalid JSON; the message does not contain the file name.
+/// Returns the content of a JSON file. Throws `Error` if the file cannot be read, is not valid JSON, or
+/// contains a number that does not fit into a double. Messages about invalid JSON do not contain the file
+/// name.
 Json read_json(const std::filesystem::path& path);
 
-/// Returns member `key` of `object`. Throws `Error` with the key if it is missing; the functions below also
-/// throw it if the member has another type or is out of range.
+/// Returns a reference to member `key` of `object`. Throws `Error`, with the key, if the member is missing or
+/// `object` is not a JSON object.
 const Json& member(const Json& object, const char* key);
-/// Returns member `key`, a finite number. Throws `Error` for any other value.
+/// Returns member `key` of `object`, a number. Throws `Error`, with the key, if the member is missing or is
+/// not a number.
 double number(const Json& object, const char* key);
-/// Returns a member that is a number in [low, high].
+/// Returns member `key` of `object`, a number in [low, high]. Throws `Error`, with the key, if the member is
+/// missing, is not a number, or is out of this range.
 double number_in(const Json& object, const char* key, double low, double high);
-/// Returns a member that is a list of `count` finite floats.
+/// Returns member `key` of `object`, a list of exactly `count` numbers. Throws `Error`, with the key, if the
+/// member is missing, is not a list of numbers, has another length, or contains a number that is not finite
+/// as a float.
 std::vector<float> numbers(const Json& object, const char* key, std::size_t count);
-/// Returns a member that is a list of three finite floats.
+/// Returns member `key` of `object`, a list of three numbers. Throws `Error`, with the key, if the member is
+/// missing, is not a list of numbers, has another length, or contains a number that is not finite as a float.
 glm::vec3 vector_of(const Json& object, const char* key);
-/// Returns a member that is a direction, normalised. Throws `Error` if its length is 0.
+/// Returns member `key` of `object`, a list of three numbers, scaled to a vector of length 1. Throws the
+/// errors of `vector_of`, and `Error`, with the key, if the vector in the file has length 0.
 glm::vec3 direction_of(const Json& object, const char* key);
 
 } // namespace json

@@ -12,49 +12,61 @@
 
 namespace prt {
 
-/// A node tree that replaces that of a `LeveledNode`.
+/// A coarser level of detail of a `LeveledNode`. If the object is small in the picture, the node of the level
+/// and its descendants replace the `LeveledNode` and its descendants.
 struct CoarserLevel {
-    int level = 1; ///< counted from 1; level 0 is the node itself
-    int node = 0;
-    std::string name;                    ///< "node 3 'Rock_LOD1'"
-    std::vector<std::size_t> primitives; ///< primitives of the scene; at least one
+    int level = 1;    ///< 1 for the finest of the coarser levels, 2 for the next one, and so on
+    int node = 0;     ///< index in the nodes of the GltfDocument
+    std::string name; ///< for messages: "node 3 'Rock_LOD1'"; "node 3" if it has no name
+    std::vector<std::size_t> primitives; ///< indices into the primitives of LeveledScene::scene; at least one
 };
 
-/// A node of the scene with coarser levels.
+/// A node of the scene that has coarser levels. The node itself, with its descendants, is level 0.
 struct LeveledNode {
-    int node = 0;
-    std::string name;
-    bool by_name = false;            ///< true: defined by names, not by MSFT_lod
-    std::vector<std::size_t> finest; ///< primitives of level 0; at least one
-    std::vector<CoarserLevel> coarser;
+    int node = 0;                      ///< index in the nodes of the GltfDocument
+    std::string name;                  ///< for messages: "node 2 'Rock_LOD0'"; "node 2" if it has no name
+    bool by_name = false;              ///< true: node names define the levels; false: MSFT_lod does
+    std::vector<std::size_t> finest;   ///< level 0: indices into the primitives of LeveledScene::scene; at
+                                       ///< least one
+    std::vector<CoarserLevel> coarser; ///< in ascending order of `level`; at least one
 };
 
-/// A scene with its coarser levels: the result of `extract_scene`, unchanged, followed by all coarser levels,
-/// each at its position in the scene. A level outside the scene gets the position of its level 0.
+/// A scene with the coarser levels of its nodes.
 struct LeveledScene {
+    /// The scene of `extract_scene`, with the same origin; the vertex arrays and primitives of all coarser
+    /// levels are appended. A level that is not in the glTF scene has the transform of the parent of its
+    /// level 0.
     Scene scene;
-    std::size_t finest_receivers = 0, finest_primitives = 0; ///< counts of `extract_scene`
-    std::vector<LeveledNode> nodes;                          ///< by MSFT_lod, then by names
-    std::vector<std::string> notices; ///< levels that are ignored and the reason, one line each
+    std::size_t finest_receivers = 0, ///< number of receivers of `extract_scene`, which come first in `scene`
+        finest_primitives = 0;      ///< number of primitives of `extract_scene`, which come first in `scene`
+    std::vector<LeveledNode> nodes; ///< nodes with levels by MSFT_lod, then nodes with levels by names
+    /// Messages about levels that are ignored, with the reason, one line each.
+    std::vector<std::string> notices;
 
-    std::size_t deepest() const; ///< maximum level; 0 if there are no levels
+    /// Returns the maximum of CoarserLevel::level over all `nodes`; 0 if `nodes` is empty.
+    std::size_t deepest() const;
 };
 
-/// Returns quickly whether nodes of the scene have coarser levels.
+/// Returns whether MSFT_lod or node names define coarser levels for visible nodes of the scene. Does not read
+/// vertices; therefore the result is also true for levels without triangles, which `extract_levels` ignores.
+/// Throws `Error` if MSFT_lod is invalid.
 bool has_levels(const GltfDocument& document);
 
-/// Returns the scene with its coarser levels. Throws the errors of `extract_scene`, which also rejects
-/// contradictory levels.
+/// Returns the scene of `document` with its coarser levels. Throws the errors of `extract_scene`, also for
+/// vertices and triangles of coarser levels.
 LeveledScene extract_levels(const GltfDocument& document);
 
-/// Returns whether coarser levels of the document have transfer; `scene` was extracted from it.
+/// Returns whether the file has raw or compressed transfer for at least one primitive of a coarser level.
+/// `scene` was extracted from `document` by `extract_levels`.
 bool levels_have_transfer(const GltfDocument& document, const LeveledScene& scene);
 
-/// Returns the number of vertices of `primitives`, which are indices into Scene::primitives.
+/// Returns the number of vertices of the vertex arrays that `primitives` use; an array that several
+/// primitives share counts once. `primitives` are indices into Scene::primitives.
 std::size_t vertices_of(const Scene& scene, std::span<const std::size_t> primitives);
 
-/// Returns areas, [receivers of the scene]: those of the receivers of level `level` of all nodes, and zero
-/// for all other receivers. Level 0 includes all receivers of `extract_scene`.
+/// Returns areas in m², [receivers of `scene.scene`]: `receiver_areas` for receivers that belong to level
+/// `level` of any node, and zero for all other receivers. Level 0 is all receivers of `extract_scene`,
+/// including those of nodes without levels.
 std::vector<float> areas_of_level(const LeveledScene& scene, std::size_t level);
 
 } // namespace prt

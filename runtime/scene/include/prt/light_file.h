@@ -12,17 +12,19 @@ namespace prt {
 
 /// Content of a light file.
 struct LightFile {
-    Light sky; ///< light without `suns`
-    std::vector<Sun> suns;
+    Light sky;             ///< distant light without the light of `suns`
+    std::vector<Sun> suns; ///< suns that are separate from `sky`; empty if the file has no suns
 };
 
-/// Reads a light file. Throws `Error` with the file name.
+/// Reads a light file with all of its bands. Throws `Error`, with the file name, if the file cannot be read
+/// or is not a valid light file.
 LightFile read_light_file(const std::filesystem::path& path);
-/// Reads a light file and keeps the first `order` bands. Throws `Error` with the file name, also if the file
-/// has fewer bands.
+/// Reads a light file and keeps the first `order` bands of its sky. Throws `Error`, with the file name, if
+/// the file cannot be read, is not a valid light file, or has fewer than `order` bands.
 LightFile read_light_file(const std::filesystem::path& path, int order);
 
-/// Returns the coefficients of the sky plus those of the suns.
+/// Returns the sum of the sky and of all suns as SH coefficients, with the order of the sky. Throws `Error`
+/// if a sun is invalid (`as_light`) or the sum is not finite.
 Light all_light(const LightFile& file);
 
 } // namespace prt

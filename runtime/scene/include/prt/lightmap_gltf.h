@@ -11,27 +11,33 @@
 
 namespace prt {
 
-/// Maximum number of texels along a side of a map.
+/// Maximum width and maximum height of a lightmap in a file, in texels.
 inline constexpr int kMaxLightmapTexels = 16384;
 
-/// Writes raw transfer of texels into `document`, from which `scene` was extracted. Replaces existing
-/// transfer.
+/// Writes raw transfer of texels into `document`, from which `scene` was extracted. Removes all existing
+/// transfer of surfaces: of vertices, of texels, and lobes. Meshes that several nodes share are copied per
+/// node, and primitives without normals get flat normals.
 void write_lightmap(GltfDocument& document, const Scene& scene, const BakedLightmap& lightmap);
 
-/// Returns the raw transfer of texels in the file; empty if absent. Throws `Error` if it is damaged.
+/// Returns the raw transfer of texels in the file; empty if the file has no lightmap or a compressed one.
+/// `scene` was extracted from `document`. Throws `Error` if the lightmap is damaged.
 std::optional<BakedLightmap> read_lightmap(const GltfDocument& document, const Scene& scene);
 
-/// A compressed lightmap whose words are encoded as images.
+/// A compressed lightmap whose packed words (cluster and weights of a texel) are encoded as images.
 struct EncodedLightmap {
-    CompressedLightmap lightmap;                ///< without receivers
-    std::vector<std::vector<std::byte>> images; ///< [maps][words] PNG
+    /// The lightmap without the clusters and weights of receivers, which `images` contain.
+    CompressedLightmap lightmap;
+    /// [maps][words per texel] PNG files, one for each word of the texels of a map.
+    std::vector<std::vector<std::byte>> images;
 };
 
 /// Writes a compressed lightmap with encoded images into `document`, from which `scene` was extracted.
-/// prt/lightmap_file.h encodes the images.
+/// Removes all existing transfer of surfaces, as `write_lightmap` does. prt/lightmap_file.h has functions
+/// that encode the images.
 void write_encoded_lightmap(GltfDocument& document, const Scene& scene, const EncodedLightmap& lightmap);
-/// Returns the compressed lightmap in the file with encoded images; empty if absent. Throws `Error` if it is
-/// damaged. prt/lightmap_file.h decodes the images.
+/// Returns the compressed lightmap in the file, with encoded images; empty if the file has no lightmap or a
+/// raw one. `scene` was extracted from `document`. Throws `Error` if the lightmap is damaged; does not decode
+/// the images. prt/lightmap_file.h has functions that decode them.
 std::optional<EncodedLightmap> read_encoded_lightmap(const GltfDocument& document, const Scene& scene);
 
 } // namespace prt

@@ -9,7 +9,9 @@
 
 namespace prt {
 
-/// Returns the edges of all triangles, as pairs of receivers, in ascending order without duplicates.
+/// Returns the edges of all triangles of all primitives, in ascending order, without duplicates and without
+/// edges from a vertex to itself. The ends of an edge are indices of receivers. Vertices at the same position
+/// are different receivers.
 std::vector<Edge> mesh_edges(const Scene& scene);
 
 } // namespace prt

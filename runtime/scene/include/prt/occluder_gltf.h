@@ -11,17 +11,18 @@
 
 namespace prt {
 
-/// An occlusion volume and the node that it moves with.
+/// An occlusion volume, and the node with which the volume moves.
 struct NodeOccluder {
-    int node = 0;           ///< index in the file
+    int node = 0;           ///< index in the nodes of the document
     OcclusionVolume volume; ///< in the frame of the node
 };
 
-/// Writes occlusion volumes into `document` and removes existing ones.
+/// Removes all occlusion volumes from `document`, then writes `occluders`, at most one for each node. Throws
+/// `Error` if a node does not exist.
 void write_occluders(GltfDocument& document, std::span<const NodeOccluder> occluders);
 
-/// Returns the occlusion volumes in the file, in the order of their nodes; empty if absent. Throws `Error` if
-/// they are damaged.
+/// Returns the occlusion volumes in the file, in ascending order of their nodes; empty if the file has no
+/// occlusion volumes. Throws `Error` if an occlusion volume is damaged.
 std::vector<NodeOccluder> read_occluders(const GltfDocument& document);
 
 } // namespace prt

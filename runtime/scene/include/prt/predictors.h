@@ -10,9 +10,9 @@
 
 namespace prt {
 
-/// Returns the predictor coordinates of each receiver of `scene`, [receivers][3 predictors.size()], as in
-/// ClusteredReceivers::predictors. Each predictor has three coordinates: the normal, or the position relative
-/// to the predictor's origin.
+/// Returns the predictor coordinates of each receiver of `scene`, [receivers][3 predictors.size()], for
+/// ClusteredReceivers::predictors. Each predictor has three coordinates: the normal, or
+/// VertexArray::positions minus Predictor::origin. The coordinates are not multiplied by Predictor::scale.
 std::vector<float> predictor_coordinates(const Scene& scene, std::span<const Predictor> predictors);
 
 } // namespace prt

@@ -13,35 +13,42 @@
 
 namespace prt {
 
-/// A vertex at the midpoint between two vertices of an array. Both may be midpoints that were added before.
+/// A new vertex at the midpoint between two vertices of a vertex array. Midpoint i of an array with n
+/// vertices becomes vertex n + i.
 struct Midpoint {
+    /// The two ends, as indices in the vertex array. An end can be an earlier midpoint.
     std::uint32_t first, second;
     friend bool operator==(const Midpoint&, const Midpoint&) = default;
 };
 
-/// Describes a refinement: vertices appended to the vertex arrays, and the complete new triangles of the
-/// primitives, with the winding order of the scene.
+/// Describes a refinement of a scene: new vertices, and the triangles that replace those of the scene.
 struct Refinement {
-    std::vector<std::vector<Midpoint>> midpoints;   ///< [vertex arrays]
-    std::vector<std::vector<glm::uvec3>> triangles; ///< [primitives]
+    /// [vertex arrays][new vertices] midpoints that are appended to each vertex array.
+    std::vector<std::vector<Midpoint>> midpoints;
+    /// [primitives][triangles] all triangles of each primitive after the refinement, as vertex indices in the
+    /// vertex array, with the winding order of Primitive::triangles.
+    std::vector<std::vector<glm::uvec3>> triangles;
 
-    /// Returns the number of added vertices.
+    /// Returns the number of new vertices of all vertex arrays.
     std::size_t vertices() const;
 };
 
-/// Returns the refinement of `scene` that changes nothing.
+/// Returns the refinement of `scene` that changes nothing: no new vertices, and the present triangles.
 Refinement no_refinement(const Scene& scene);
 
-/// Returns the refined scene. Triangles stay flat: positions, texture coordinates and colors are means,
-/// normals are normalised means.
+/// Returns `scene` with `refinement` applied. A new vertex has the means of the positions, texture
+/// coordinates and colors of both ends, and the normalised mean of both normals. If the normals are opposite,
+/// the new vertex has the normal of the first end. Surfaces keep their shape, because triangles stay flat.
 Scene refined(const Scene& scene, const Refinement& refinement);
 
-/// Returns the refined file. Every attribute of a midpoint, also in morph targets, is the mean of the two
-/// ends, in the type of the file. Normals and tangents are normalised. Joints are those of both ends with the
-/// largest weights. Integers of which a mean is meaningless (application attributes) are copied from the
-/// first end. Positions and integer texture coordinates become float32, so that surfaces which touch each
-/// other still do. `scene` must be extracted from `document`. Meshes are copied for each node, primitives
-/// without normals get flat ones, and transfer is removed. Throws `Error`.
+/// Returns `document` with `refinement` applied. `scene` must be extracted from `document`. Each attribute of
+/// a new vertex, also in morph targets, is the mean of the attributes of both ends, in the number type of the
+/// file, with these exceptions. Normals and tangents of vertices are normalised means. Joints are those with
+/// the largest weights among the joints of both ends. Integer attributes of applications are copied from the
+/// first end. Positions, and texture coordinates in integers that are not normalised, become float32, so that
+/// surfaces which touch each other still touch. Each node gets a separate copy of a shared mesh, primitives
+/// without normals get flat normals, and transfer is removed. Throws `Error`, with the file name, if
+/// `document` is damaged or becomes too large.
 GltfDocument refined(GltfDocument document, const Scene& scene, const Refinement& refinement);
 
 } // namespace prt

@@ -14,24 +14,28 @@ namespace prt {
 
 /// A part of a scene that moves rigidly with one node.
 struct RigidPart {
-    int node = 0;        ///< the node that moves the part, as its index in the file
-    std::string name;    ///< name of the node; "node N" if it has none
-    glm::dmat4 frame{1}; ///< matrix from the frame of the node, in the pose of the file, to the frame of the
-                         ///< scene's positions
-    Scene scene; ///< the triangles of the part, in the pose and with the origin of the full scene; no lights
+    int node = 0;        ///< the node that moves the part: index in the nodes of the GltfDocument
+    std::string name;    ///< name of the node; "node N" if it has no name
+    glm::dmat4 frame{1}; ///< matrix from the frame of the node, in the pose of the file, to the frame of
+                         ///< the positions in `scene`
+    /// The triangles of the part, in the pose of the file and with the origin of the full scene. Contains no
+    /// lights; materials have only the properties that affect which rays a surface blocks.
+    Scene scene;
 };
 
 /// Settings of `rigid_parts`.
 struct RigidPartsOptions {
-    /// Minimum diagonal of a part's bounding box, as a fraction of the full scene's. Smaller parts are merged
-    /// into their parent part, for example a finger into its hand.
+    /// Minimum diagonal of the bounding box of a part, as a fraction of that of the full scene, 0..1. A
+    /// smaller part is merged into the part of its nearest moving ancestor or root, for example a finger into
+    /// its hand. 0: no part is merged.
     double min_share = 0.12;
 };
 
-/// Returns the parts of `scene`, which was extracted from `document`, in the order of their nodes. A node
-/// that is animated or a joint owns its descendants, except those that belong to another such node below it.
-/// A triangle of a skin belongs to the joint with the largest influence. Geometry that does not move forms
-/// one part for each root of the hierarchy.
+/// Splits `scene`, which was extracted from `document`, into rigid parts, in ascending order of their nodes.
+/// A node moves if the file animates it or it is a joint of a skin. A triangle belongs to the node that draws
+/// it if this node moves, else to the nearest ancestor that moves, else to the root of the hierarchy. A
+/// triangle of a skinned mesh belongs to the joint with the largest sum of weights. Throws `Error` if this
+/// joint is not in the scene.
 std::vector<RigidPart> rigid_parts(const GltfDocument& document, const Scene& scene,
                                    const RigidPartsOptions& options = {});
 

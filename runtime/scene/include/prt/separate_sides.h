@@ -10,11 +10,13 @@
 
 namespace prt {
 
-/// Returns the file with a second, opposite triangle for each triangle that is marked in `triangles`
-/// [triangles of the scene]. The vertices of the second triangle are copies with negated normals and
-/// tangents. Both triangles get single-sided copies of their material, also in variants. A primitive that is
-/// single-sided in any variant is not changed. `scene` must be extracted from `document`. Meshes are copied
-/// for each node, primitives without normals get flat ones, and transfer is removed. Throws `Error`.
+/// Returns `document` with a second triangle of opposite winding for each triangle that is true in
+/// `triangles`, [triangles of `scene`, primitive by primitive]. The vertices of the second triangle are
+/// copies with negated normals and tangents. Both triangles get a single-sided copy of their material.
+/// Triangles are ignored if their primitive is single-sided, by its material or by a material of
+/// KHR_materials_variants. `scene` must be extracted from `document`. Each node gets a separate copy of a
+/// shared mesh, primitives without normals get flat normals, and transfer is removed. Throws `Error`, with
+/// the file name, if `document` is damaged or becomes too large.
 GltfDocument with_separate_sides(GltfDocument document, const Scene& scene,
                                  const std::vector<bool>& triangles);
 

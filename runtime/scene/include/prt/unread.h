@@ -9,10 +9,12 @@
 
 namespace prt {
 
-/// Returns the names of the extensions that the file uses and prtkit does not read.
+/// Returns the names of the extensions that `extensionsUsed` of the file lists and prtkit does not support,
+/// in the order of the list. Extensions that change only specular reflection count as supported.
 std::vector<std::string> unread_extensions(const GltfDocument& document);
 
-/// Returns the names of the lights of KHR_lights_punctual that no node uses.
+/// Returns descriptions of the lights of KHR_lights_punctual that no node of the file refers to, in the order
+/// of the file: "light 2 'Lamp'", or "light 2" if the light has no name.
 std::vector<std::string> unused_lights(const GltfDocument& document);
 
 } // namespace prt

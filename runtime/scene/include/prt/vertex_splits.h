@@ -13,19 +13,26 @@
 
 namespace prt {
 
-/// New vertices and texture coordinates of one primitive.
+/// New vertices, texture coordinates and triangles of one primitive. A vertex at the boundary of charts
+/// (parts of a texture) occurs once for each chart.
 struct VertexSplit {
-    std::vector<std::uint32_t> source; ///< [new vertices] index in the primitive's vertex array
-    std::vector<glm::vec2> uv;         ///< [new vertices]
-    std::vector<glm::uvec3> triangles; ///< indices of new vertices, with the winding order of the scene
+    /// [new vertices] index of the original vertex in the vertex array of the primitive.
+    std::vector<std::uint32_t> source;
+    std::vector<glm::vec2> uv; ///< [new vertices] texture coordinates, as in glTF; 0..1 is the texture
+    std::vector<glm::uvec3> triangles; ///< all triangles of the primitive, as indices of new vertices, with
+                                       ///< the winding order of Primitive::triangles
 };
 
-/// Returns the smallest N for which no primitive has TEXCOORD_N or a later set.
+/// Returns the smallest N for which no vertex array of `scene` has TEXCOORD_N or a later set. 0 if there are
+/// no texture coordinates.
 int free_texcoord(const Scene& scene);
 
-/// Returns the file with the coordinates of `splits` [primitives of the scene] as TEXCOORD_`set`. All other
-/// vertex data is split accordingly, and every node gets a separate mesh. Missing sets below `set` are filled
-/// with zero, because glTF does not allow gaps. `scene` must be extracted from `document`.
+/// Returns `document` with the vertices and triangles of `splits`, [primitives of `scene`], and with the
+/// texture coordinates of `splits` as TEXCOORD_`set`. All other vertex data is copied for the new vertices.
+/// Sets below `set` that a primitive lacks are filled with zeros, because glTF does not allow gaps. `scene`
+/// must be extracted from `document`. Each node gets a separate copy of a shared mesh, primitives without
+/// normals get flat normals, and transfer is removed. Throws `Error`, with the file name, if `document` is
+/// damaged or becomes too large.
 GltfDocument with_texcoords(GltfDocument document, const Scene& scene, std::span<const VertexSplit> splits,
                             int set);
 

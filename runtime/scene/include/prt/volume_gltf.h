@@ -1,7 +1,7 @@
 #pragma once
 
-// Volumes of transfer in glTF files: PRTKIT_transfer_volume of docs/format.md. They are independent of the
-// transfer of surfaces in a file. Experimental.
+// Volumes of transfer in glTF files: PRTKIT_transfer_volume of docs/format.md. A file can have a volume in
+// addition to transfer of surfaces. Experimental.
 
 #include "prt/gltf.h"
 #include "prt/transfer_volume.h"
@@ -10,18 +10,22 @@
 
 namespace prt {
 
-/// Writes a raw volume into `document`, from which `scene` was extracted. Replaces an existing volume.
+/// Writes a raw volume into `document`, from which `scene` was extracted. Replaces an existing volume, raw or
+/// compressed. Does not change transfer of surfaces.
 void write_volume(GltfDocument& document, const Scene& scene, const BakedVolume& volume);
-/// Writes a compressed volume, whose weights must be packed, into `document`, from which `scene` was
-/// extracted. Replaces an existing volume.
+/// Writes a compressed volume into `document`, from which `scene` was extracted. Replaces an existing volume,
+/// raw or compressed. Does not change transfer of surfaces. Throws `Error` unless the weights are packed.
 void write_volume(GltfDocument& document, const Scene& scene, const CompressedVolume& volume);
 
-/// Returns the raw volume in the file; empty if absent. Throws `Error` if it is damaged.
+/// Returns the raw volume in the file; empty if the file has no volume or a compressed one. `scene` was
+/// extracted from `document`. Throws `Error` if the volume is damaged.
 std::optional<BakedVolume> read_volume(const GltfDocument& document, const Scene& scene);
-/// Returns the compressed volume in the file; empty if absent. Throws `Error` if it is damaged.
+/// Returns the compressed volume in the file; empty if the file has no volume or a raw one. `scene` was
+/// extracted from `document`. Throws `Error` if the volume is damaged.
 std::optional<CompressedVolume> read_compressed_volume(const GltfDocument& document, const Scene& scene);
 
-/// Removes the volume from `document`, if there is one.
+/// Removes the volume, raw or compressed, from `document`, and frees its memory. Does nothing if there is no
+/// volume.
 void discard_volume(GltfDocument& document);
 
 } // namespace prt

@@ -12,22 +12,33 @@
 namespace prt {
 
 /// Kind of an input or output of a shader.
-enum class BindingKind { attribute, storage_buffer, uniform_block, sampler, uniform, push_constant, output };
+enum class BindingKind {
+    attribute,      ///< vertex attribute
+    storage_buffer, ///< shader storage buffer
+    uniform_block,  ///< uniform buffer
+    sampler,        ///< texture
+    uniform,        ///< uniform variable outside blocks
+    push_constant,  ///< member of the push constants of Vulkan
+    output          ///< output of the vertex shader, an input of the fragment shader
+};
 
 /// One input of a shader, or its output.
 struct ShaderBinding {
-    BindingKind kind;
-    std::string name = {}; ///< name of the attribute, block, sampler or uniform
-    std::string type = {}; ///< type in GLSL
-    int number = -1; ///< location of an attribute or output, else the binding point; -1: look it up by name
-    std::string content = {}; ///< description of the data that the application binds
+    BindingKind kind;      ///< kind of the input or output
+    std::string name = {}; ///< name of the attribute, block, sampler, uniform or output in the shader
+    std::string type = {}; ///< type in GLSL, for example "uvec4" or "vec4[]"
+    int number = -1;       ///< location of an attribute or output, else binding point; -1: the shader has no
+                           ///< number, and an application looks up the input by its name
+    std::string content = {}; ///< description of the data, in English, for the application's programmer
 };
 
-/// Returns the bindings of the shader that `relight_shader` returns for the same arguments, attributes first.
+/// Returns the bindings of the vertex shader that `relight_shader` returns for the same arguments:
+/// attributes, then constants and table of clusters, then the matrix, then the output.
 std::vector<ShaderBinding> relight_bindings(const ClusteredTransfer& transfer, ConstantSource constants,
                                             ShaderLanguage language);
 
-/// Returns a table with one line for each binding; each line begins with `prefix`.
+/// Returns `bindings` as a text table with one line each: kind, number, name, type and content. Each line
+/// begins with `prefix`, for example "// ", and ends with a line feed. "-" is a missing number.
 std::string binding_table(std::span<const ShaderBinding> bindings, const std::string& prefix = "");
 
 } // namespace prt

@@ -17,59 +17,67 @@ enum class ShaderLanguage {
     vulkan,  ///< GLSL for compilation to SPIR-V, and from there to HLSL
 };
 
-/// Storage of the constants for a vertex shader.
+/// Storage from which a shader reads the constants (ClusterLighting::update) and the table of clusters.
 enum class ConstantSource {
     buffer,  ///< storage buffers; not in OpenGL 3.3 and ES 3.0
-    block,   ///< uniform blocks; 16 bytes per row; a driver may support no more than 16 KB
-    texture, ///< texel fetch from an RGBA32F and an RGBA32UI texture, kConstantTextureWidth texels per row
+    block,   ///< uniform blocks; 16 bytes per row of constants; a driver may support only 16 KB
+    texture, ///< textures without filtering: RGBA32F for the constants, RGBA32UI for the table of clusters;
+             ///< kConstantTextureWidth texels wide
 };
 
-/// Width in texels of the textures that store constants.
+/// Width in texels of the textures of ConstantSource::texture. Row i of the constants, or entry i of the
+/// table of clusters, is texel (i % width, i / width).
 inline constexpr int kConstantTextureWidth = 256;
 
-/// Returns the source of file `name` of shaders/: version line, `defines` (lines), then the file with its
-/// includes expanded, each once. Throws `Error` if there is no such file.
+/// Returns the source of a complete shader: version line of `language`, `defines`, then file `name` of the
+/// folder shaders/, in which each include is expanded once. `defines`: lines of #define, each with a line
+/// feed; may be empty. Throws `Error` if the file does not exist.
 std::string shader_source(std::string_view name, std::string_view defines,
                           ShaderLanguage language = ShaderLanguage::glsl450);
 
-/// Returns the source of file `name` of shaders/ without a version line, for insertion into shaders.
+/// Returns `defines`, then file `name` of the folder shaders/, in which each include is expanded once,
+/// without a version line, for insertion into a shader. `defines`: lines of #define, each with a line feed;
+/// may be empty. Throws `Error` if the file does not exist.
 std::string shader_part(std::string_view name, std::string_view defines);
 
-/// Returns the maximum number of unpacked weight components in vertex attributes: 48, or 44 with predictors.
+/// Returns the maximum number of unpacked (float) weights per vertex that the vertex attributes of the
+/// shaders can hold: 48, or 44 if `bases` has predictors.
 int max_vertex_components(const ClusteredBases& bases);
 
-/// Returns the define lines that shaders/prt_exit_radiance.glsl needs for a model. `seen_from` 0: the shader
-/// gets positions as in the Scene; `seen_from` = Scene::origin: positions in the file's world. Floats lose
-/// precision in a world whose origin is far away. If `clusters_have_equal_layout`, the shader has no loop,
-/// and there is no table of clusters (PrtClusters, prt_clusters) to bind. Throws `Error` if the weights do
-/// not fit the vertex attributes, and for storage buffers in a language without them.
+/// Returns the lines of #define for shaders/prt_exit_radiance.glsl. The shader gets the positions of the
+/// Scene plus `seen_from`. `seen_from` 0: positions relative to Scene::origin. `seen_from` = Scene::origin:
+/// positions in the file's world, in which floats lose precision if the origin is far away. If
+/// `clusters_have_equal_layout`, the shader has no loop and no table of clusters (PrtClusters, prt_clusters)
+/// to bind. Throws `Error` if the weights do not fit into the vertex attributes, and for
+/// ConstantSource::buffer in OpenGL 3.3 and ES 3.0.
 std::string relight_defines(const ClusteredTransfer& transfer,
                             ConstantSource constants = ConstantSource::buffer,
                             ShaderLanguage language = ShaderLanguage::glsl450,
                             const glm::dvec3& seen_from = glm::dvec3(0));
 
-/// Returns a complete vertex shader for a model (shaders/prt_relight.vert). Its inputs are listed by
-/// `relight_bindings` (prt/shader_bindings.h) and in the comment at the top of the shader. Throws the errors
-/// of `relight_defines`.
+/// Returns a complete vertex shader for a model (shaders/prt_relight.vert); its output is the exit radiance
+/// for albedo 1. `relight_bindings` (prt/shader_bindings.h) and a comment in the shader list its inputs. The
+/// arguments are those of `relight_defines`. Throws the errors of `relight_defines`.
 std::string relight_shader(const ClusteredTransfer& transfer, ConstantSource constants,
                            ShaderLanguage language, const glm::dvec3& seen_from = glm::dvec3(0));
 
-/// Returns the define lines that shaders/prt_terms.glsl needs for a layout. Throws `Error` for an invalid
-/// layout.
+/// Returns the lines of #define for shaders/prt_terms.glsl. Throws `Error` if `layout` is invalid
+/// (`check_layout`).
 std::string term_defines(const TransferLayout& layout);
 
-/// Returns a complete compute shader that computes the constants (shaders/prt_constants.comp), for GLSL 4.5
-/// and Vulkan.
+/// Returns a complete compute shader that computes the constants on the GPU, as ClusterLighting::update does
+/// on the CPU (shaders/prt_constants.comp). Throws `Error` for OpenGL 3.3 and ES 3.0.
 std::string constants_shader(const ClusteredTransfer& transfer, ShaderLanguage language);
 
 /// Type of the shader pass that lights a lightmap.
 enum class LightmapPass {
-    compute,  ///< prt_lightmap.comp: GLSL 4.5 and Vulkan
-    fragment, ///< prt_lightmap.frag: every language
+    compute,  ///< compute shader prt_lightmap.comp: only ShaderLanguage::glsl450 and vulkan
+    fragment, ///< fragment shader prt_lightmap.frag, drawn over the map: every language
 };
 
-/// Returns the complete shader that lights a lightmap with packed weights. Throws the errors of
-/// `relight_defines`, and `Error` for LightmapPass::compute in a language without compute shaders.
+/// Returns the complete shader of a pass that computes the exit radiance, for albedo 1, of the texels of a
+/// lightmap. `transfer` must have packed weights. Throws the errors of `relight_defines`, and `Error` for
+/// LightmapPass::compute in OpenGL 3.3 and ES 3.0.
 std::string lightmap_shader(const ClusteredTransfer& transfer, LightmapPass pass, ConstantSource constants,
                             ShaderLanguage language);
 
