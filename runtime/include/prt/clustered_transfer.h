@@ -80,8 +80,8 @@ void pack_words(std::uint32_t cluster, int cluster_bits, const ClusterLayout& la
 
 /// Fills entries [first, first + count) of `receivers.clusters` with the indices that the packed words in
 /// `receivers.weights` contain. Both arrays must have their final size. Throws `Error` for an index that is
-/// not below `clusters`, the number of clusters. Its message names the receiver by the noun `what` and the
-/// number relative to `first`: "vertex 3 has cluster 9, but there are only 8".
+/// not below `clusters`, the number of clusters. The message of the error names the receiver by the noun
+/// `what` and its number relative to `first`: "vertex 3 has cluster 9, but there are only 8".
 void unpack_clusters(std::size_t clusters, std::size_t first, std::size_t count, const char* what,
                      ClusteredReceivers& receivers);
 
@@ -118,8 +118,8 @@ std::vector<glm::vec3> exit_radiance(const ClusteredTransfer& transfer, const Li
 /// `light` has fewer bands than the transfer. Uses `threads` threads; 0: all hardware threads.
 std::vector<glm::vec3> exit_radiance(const ClusteredTransfer& transfer, const Light& light, int threads = 0);
 
-/// Returns the decompressed transfer vectors of all receivers, in the layout of `transfer.bases`. They have
-/// the error of the compression. Uses `threads` threads; 0: all hardware threads.
+/// Returns the decompressed transfer vectors of all receivers, in the layout of `transfer.bases`. The vectors
+/// contain the error of the compression. Uses `threads` threads; 0: all hardware threads.
 Transfer decode(const ClusteredTransfer& transfer, int threads = 0);
 
 } // namespace prt

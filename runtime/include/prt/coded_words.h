@@ -26,10 +26,10 @@ struct WordLayout {
 /// end and contain v itself.
 using EarlierNeighbors = std::array<std::uint32_t, 3>;
 
-/// Returns the predicting receivers of each vertex, [receivers]. They are the first three distinct vertices
-/// that share a triangle with vertex v, have a smaller index than v, and are in the same block of 16384
-/// consecutive receivers as v. "First" is the order of `triangles` [triangles][3], within a triangle the
-/// order of indices. Throws `Error` if a triangle has an index that is not below `receivers`.
+/// Returns the predicting receivers of each vertex, [receivers]. The entry of vertex v contains the first
+/// three distinct vertices that share a triangle with v, have a smaller index than v, and are in the same
+/// block of 16384 consecutive receivers as v. "First" is the order of `triangles` [triangles][3], within a
+/// triangle the order of indices. Throws `Error` if a triangle has an index that is not below `receivers`.
 std::vector<EarlierNeighbors> earlier_neighbors(std::span<const std::uint32_t> triangles,
                                                 std::size_t receivers);
 

@@ -41,7 +41,7 @@ enum class EnvironmentLayout {
     cube_faces,
     /// Angular map (Debevec's light probes): a square image with all directions inside its inscribed circle.
     /// The center is -Z, +X is to the right, +Y up. The angle to -Z grows linearly with the distance from the
-    /// center, up to pi at the circle. Pixels outside the circle are ignored.
+    /// center, up to pi at the circle. Pixels outside the circle have no direction.
     angular,
 };
 
@@ -55,7 +55,7 @@ enum class LatLongCenter {
 struct Environment {
     Image image;                                            ///< radiance
     EnvironmentLayout layout = EnvironmentLayout::lat_long; ///< directions of the pixels of `image`
-    LatLongCenter center = LatLongCenter::z;                ///< only used by the layout `lat_long`
+    LatLongCenter center = LatLongCenter::z;                ///< ignored by all layouts except `lat_long`
 };
 
 /// Throws `Error` unless width and height are at least 1, the number of pixels is width x height, and the
@@ -112,8 +112,8 @@ glm::vec3 sample_lat_long(const Image& image, const glm::vec3& direction);
 /// Returns the environment as a lat-long image with the center +Z (`LatLongCenter::z`). A lat-long image
 /// keeps its size: with the center +Z it is copied; with the center +X and a width divisible by four its
 /// columns are shifted without loss. All other environments are resampled by `sample`. The result of a cube
-/// map is twice as high as a face is wide, that of an angular map half as high as the map; both are twice as
-/// wide as high. Throws the errors of `check_environment`.
+/// map is twice as high as a face is wide, that of an angular map half as high as the map (rounded down, at
+/// least 1); both are twice as wide as high. Throws the errors of `check_environment`.
 Image resampled_lat_long(const Environment& environment);
 
 /// Returns the SH coefficients of the environment in `order` bands, 1..kMaxOrder. Radiance is constant over

@@ -30,7 +30,7 @@ struct ConstantRows {
 /// Returns the smallest range that contains all rows of the clusters of receivers [first, first + count). It
 /// also contains the rows of all clusters with indices between these. Returns an empty range if `count` is 0.
 ConstantRows rows_of(const ClusteredTransfer& transfer, std::size_t first, std::size_t count);
-/// Returns the smallest range that contains `a` and `b`; an empty range counts as nothing.
+/// Returns the smallest range that contains `a` and `b`. If one of them is empty, returns the other.
 ConstantRows joined(const ConstantRows& a, const ConstantRows& b);
 
 /// An instance, and the rows that its mesh reads.
@@ -58,8 +58,8 @@ public:
     /// Returns two vectors per instance, [instances][2], for the attributes of the shader. xyz of the first
     /// is the center of the mesh's box, xyz of the second 1 / half of its size along each axis. The w
     /// components are integers in floats, 0..65535: the low 16 bits (first) and the high 16 bits (second) of
-    /// a 32-bit offset. The red vector of row r of the model is at index 3 ((r + offset) mod
-    /// 2^32) of the constants; green and blue follow.
+    /// a 32-bit offset. The red vector of row r of the model is at index 3 ((r + offset) mod 2^32) of the
+    /// constants; green and blue follow.
     std::vector<glm::vec4> table() const;
     /// Computes the constants of all instances for `lighting`, which is in the frame of the world, and writes
     /// them to `constants` [size()]: instance by instance, row by row, then red, green, blue. The color of a

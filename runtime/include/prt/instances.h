@@ -8,6 +8,7 @@
 // describe both effects; all instances share the modes. Each instance has a factor per mode: ten passing
 // (transmitted) modes have factors that are linear in the position within the mesh's box, four added
 // (reflected) modes have constant colors. Arrays of modes contain the passing modes first.
+// Y_i is the SH basis function number i.
 //
 // Each frame:
 //     modes.lightings(lighting)                      // once for all instances
@@ -50,8 +51,8 @@ inline constexpr std::size_t kInstanceNumbers = 4 * kPassingModes + 3 * kAddedMo
 inline constexpr float kMaxInstanceFactor = 6e4f;
 
 /// Effect of an instance's surroundings on its light: a factor for each mode. The functions Y_i of the modes
-/// are in the axes of the world, unless a function states the axes of the mesh. A value-initialized object
-/// has all factors 0: no light.
+/// are in the axes of the world, unless a function states the axes of the mesh. By default all factors are 0:
+/// no light.
 struct InstanceFactors {
     /// Linear function for each passing mode. At the relative position u in the box of the mesh
     /// (`InstanceBox::position_of`), the factor of mode m is dot(passing[m], (u, 1)) for all colors.
@@ -77,9 +78,9 @@ struct CodedFactors {
     std::array<float, kInstanceNumbers> scales{}; ///< step of each number, not negative
     std::vector<std::int8_t> bytes;               ///< [instances][kInstanceNumbers] -127..127
 };
-/// Returns the coded factors of all instances, with the scales that the largest differences from
-/// `open_factors` need. Rounds each number to the nearest step. Throws `Error` for numbers that are not
-/// finite or exceed kMaxInstanceFactor in magnitude.
+/// Returns the coded factors of all instances, with scales[j] the largest difference of number j from
+/// `open_factors`, divided by 127. Rounds each number to the nearest step. Throws `Error` for numbers that
+/// are not finite or exceed kMaxInstanceFactor in magnitude.
 CodedFactors coded(std::span<const InstanceFactors> factors);
 /// Returns the factors of all instances, [instances], as rounded by `coded`.
 std::vector<InstanceFactors> decoded(const CodedFactors& coded);
@@ -117,7 +118,8 @@ public:
     /// that maps the coefficients of one channel of a lighting to those of the mode.
     std::span<const float> matrix(std::size_t mode) const;
     /// Returns the transfer vector of unoccluded horizontal ground, [order²]. Its dot product with the
-    /// coefficients of a lighting is the exit radiance of the ground for albedo 1, the factor of added modes.
+    /// coefficients of a lighting is the exit radiance of the ground for albedo 1, which multiplies the
+    /// functions Y_i of added modes.
     std::span<const float> level() const { return level_; }
     /// Returns the lighting of each mode under `lighting`, in `order()` bands; ignores further bands of
     /// `lighting`. A passing mode has suns if `lighting` has suns. An added mode has all its light in `sky`.
@@ -126,7 +128,8 @@ public:
 
 private:
     int order_;
-    std::vector<float> matrices_, level_;
+    std::vector<float> matrices_, ///< [kPassingModes][order²][order²]
+        level_;                   ///< [order²]
 };
 
 /// Transfer vectors of the receivers of one mesh under each mode. Immutable, thread-safe.
@@ -192,17 +195,18 @@ struct PlacedInstance {
 void expand_instance(const SharedTransfer& shared, const PlacedInstance& instance,
                      std::span<const glm::vec3> positions, std::span<float> vectors);
 
-/// A few rotations, one of which replaces the rotation of each instance. Instances with the same entry share
-/// one rotated lighting.
+/// Rotations that replace the rotations of instances. Instances with the same replacement share one rotated
+/// lighting.
 struct InstanceRotations {
-    std::vector<glm::dmat3> rotations; ///< distinct rotations from the mesh's frame to the world's
-    std::vector<std::uint32_t> of;     ///< [instances] index of the instance's entry in `rotations`
-    double max_degrees = 0;            ///< maximum angle between the rotation of an instance and its entry
+    std::vector<glm::dmat3> rotations; ///< distinct replacements; map the mesh's frame to the world's
+    std::vector<std::uint32_t> of;     ///< [instances] index in `rotations` of the replacement
+    double max_degrees =
+        0; ///< maximum angle in degrees between the rotation of an instance and its replacement
 };
 /// Groups `rotations` [instances], which map the mesh's frame to the world's. If `bins` is greater than 0,
 /// rotations about +Y are rounded to the nearest multiple of 360 / bins degrees. Every other rotation, and
-/// every rotation if `bins` is 0, uses the first entry that differs by at most `degrees`; if there is none,
-/// it becomes an entry.
+/// every rotation if `bins` is 0, is replaced by the first entry of the result that differs by at most
+/// `degrees` degrees. If no entry does, the rotation itself becomes an entry.
 InstanceRotations instance_rotations(std::span<const glm::dmat3> rotations, int bins, double degrees = 0.01);
 
 /// Returns `lightings`, the result of `InstanceModes::lightings` in the frame of the world, rotated into the

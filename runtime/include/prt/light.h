@@ -21,7 +21,7 @@ struct Light {
 };
 
 /// Filter that scales each band of a lighting to reduce ringing, the oscillation that truncation to `order`
-/// bands causes. `windowed` applies it.
+/// bands causes. The function `windowed` applies the filter.
 enum class Window {
     none,     ///< no change
     hann,     ///< factor (1 + cos(pi l / order)) / 2 for band l
@@ -33,8 +33,8 @@ enum class Window {
 Light constant_light(int order, const glm::vec3& radiance);
 
 /// Returns a distant point-like light, in `order` bands. `towards` is the unit direction from receivers to
-/// the light. `irradiance` is that on a receiver whose normal is `towards`, before truncation to `order`
-/// bands.
+/// the light. `irradiance` is the irradiance on a receiver whose normal is `towards`, for an infinite number
+/// of bands; `order` bands approximate it.
 Light directional_light(int order, const glm::vec3& towards, const glm::vec3& irradiance);
 
 /// Returns light of radiance `radiance` from all directions within `half_angle` radians of the unit direction
@@ -77,7 +77,7 @@ Light sum(const Light& a, const Light& b);
 Light blended(const Light& a, const Light& b, float share);
 
 /// Returns the radiance that arrives from unit direction `direction`: the sum of the coefficients times the
-/// basis functions. It can be negative, because few bands ring. Does not throw.
+/// basis functions. The result can be negative, because truncated lighting rings. Does not throw.
 glm::vec3 radiance(const Light& light, const glm::vec3& direction);
 
 /// Returns the first `order` bands of `light`; `order` must be at least 1. Throws `Error` if `light` has

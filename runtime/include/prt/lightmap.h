@@ -71,9 +71,10 @@ struct CompressedLightmap {
 /// Point on a UV seam, with the texels of its bilinear samples on both sides. The sum of weights[i] times the
 /// value of receivers[i] is the sample on the first side minus the sample on the second: the jump of light.
 struct SeamJump {
-    std::array<std::uint32_t, 8>
-        receivers;                ///< receivers of the first side (entries 0..3) and the second (4..7)
-    std::array<float, 8> weights; ///< bilinear weights, negated for the second side
+    /// Indices of receivers: the four texels of the sample on the first side, then those of the second side.
+    std::array<std::uint32_t, 8> receivers;
+    /// Bilinear weight of each entry of `receivers`; negative on the second side. The sum is 0.
+    std::array<float, 8> weights;
 };
 
 /// Returns the pairs of receivers whose light must match, in ascending order, without duplicates: receivers
@@ -93,9 +94,9 @@ struct BilinearTexels {
     std::uint32_t texels[4]; ///< numbers within the map; a texel may occur twice, at the edge of a map
     double weights[4];       ///< weight of each texel, 0..1; the sum is 1
 };
-/// Returns the texels of the bilinear sample at (x, y): u times the width, and v times the height of the map.
-/// Column or row i has its center at i + 0.5. Outside the map, the map repeats if `size.repeats`, else the
-/// position is clamped. A coordinate that is not finite counts as 0.
+/// Returns the texels of the bilinear sample at (x, y), with x the coordinate u times the width and y the
+/// coordinate v times the height of the map. Column or row i has its center at i + 0.5. Outside the map, the
+/// map repeats if `size.repeats`, else the position is clamped. A coordinate that is not finite counts as 0.
 BilinearTexels bilinear_texels(const LightmapSize& size, double x, double y);
 
 } // namespace prt

@@ -39,7 +39,7 @@ inline constexpr float kMaxGain = 1e3f;
 using LobeProfile = std::array<float, kMaxLobeOrder>;
 
 /// Component of a grey transfer vector with rotational symmetry about an axis: its coefficient of band l and
-/// degree m is profile[l] Y_lm(axis). A value-initialized lobe has no light.
+/// degree m is profile[l] Y_lm(axis). By default all gains are 0.
 struct Lobe {
     glm::vec3 axis{0, 0, 1}; ///< unit vector
     LobeProfile profile{};   ///< gain of each band

@@ -21,11 +21,11 @@ namespace prt {
 inline constexpr int kOccluderSide = 8;
 /// Number of points, and thus of texels, of an occlusion volume.
 inline constexpr std::size_t kOccluderTexels = kOccluderSide * kOccluderSide * kOccluderSide;
-/// Fraction of `OcclusionVolume::reach` up to which occlusion has full strength. From there it fades smoothly
-/// to 0 at the reach.
+/// Fraction of `OcclusionVolume::reach` up to which occlusion has full strength. Occlusion fades smoothly
+/// from this distance to 0 at the reach.
 inline constexpr float kOccluderFade = 0.6f;
 /// Half width of the soft border of a blocked cap in `blocked_sun`, as a fraction of the angular radius of
-/// the cap. The half angle of the sun is added to it.
+/// the cap. `blocked_sun` adds the half angle of the sun to this width.
 inline constexpr float kOccluderBorder = 0.4f;
 /// Maximum number of objects in the list of a shader, unless the shader defines PRT_MAX_OCCLUDERS.
 inline constexpr std::size_t kMaxOccluders = 32;
@@ -99,10 +99,10 @@ PlacedOccluder placed(const OcclusionVolume& volume, const glm::mat4& to_world, 
 /// is the result of `placed` for `volume`. The cap blocks nothing if `position` is beyond the reach.
 BlockedCap blocked_at(const OcclusionVolume& volume, const PlacedOccluder& where, const glm::vec3& position);
 
-/// Returns indices in `placed` of the occluders that can block light in the box from corner `low` to corner
-/// `high` of the world: the box is within their reach. The order is ascending in the distance from the
-/// occluder's center to the box minus the reach; after `most` entries the list ends. The list is for the
-/// shader that draws the geometry in the box.
+/// Returns up to `most` indices in `placed`: occluders that can block light in the box from corner `low` to
+/// corner `high`, in the world. An occluder can block light if d is less than its reach, with d the distance
+/// from the center of the occluder to the box. The occluder with the smallest d - reach is first. The list is
+/// for the shader that draws the geometry in the box.
 std::vector<std::uint32_t> occluders_near(std::span<const PlacedOccluder> placed, const glm::vec3& low,
                                           const glm::vec3& high, std::size_t most);
 
