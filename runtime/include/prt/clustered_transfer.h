@@ -7,8 +7,9 @@
 //     relighter.update(light, constants);                       // M_k·L and B_kj·L: prt/cluster_lighting.h
 // Then per receiver, in a vertex shader (shaders/prt_exit_radiance.glsl) or on the CPU:
 //     R = C[first_k] + sum_i x_i C[first_k + 1 + i] + sum_j w_j C[first_k + 1 + g + j]
-// This is docs/math.md, eq. 29, with C the constants and x the g predictor coordinates relative to their
-// origin. Stable.
+// This is docs/math.md, eq. 29, with k the cluster of the receiver, m_k its number of basis
+// directions, C the constants, w the m_k weights, and x the g predictor coordinates relative to their origin.
+// Stable.
 
 #include "prt/clustered_bases.h"
 #include "prt/light.h"
@@ -43,8 +44,8 @@ struct ClusteredReceivers {
     int cluster_bits = 0;
     /// Format packed: number of 32-bit words per receiver, at least 1. Format float32: not used.
     int words = 0;
-    /// [receivers] index of each receiver's cluster. In the packed format this is a copy for the CPU: the
-    /// words contain the index also.
+    /// [receivers] index of each receiver's cluster. Format packed: a copy, for the CPU, of the indices that
+    /// the words contain.
     std::vector<std::uint16_t> clusters;
     /// Format float32: floats [receivers][components]; the floats after the m_k weights of a receiver's
     /// cluster are 0. Format packed: 32-bit words [receivers][words] in the byte order of the CPU.
@@ -56,7 +57,7 @@ struct ClusteredReceivers {
 
     /// Returns the number of receivers.
     std::size_t size() const { return clusters.size(); }
-    /// Returns the size of one receiver's entry in `weights` in bytes.
+    /// Returns the number of bytes of one receiver in `weights`.
     std::size_t stride() const;
 };
 
@@ -90,10 +91,10 @@ void unpack_clusters(std::size_t clusters, std::size_t first, std::size_t count,
 /// each of the `components` weights.
 std::size_t bytes_per_receiver(const ClusteredTransfer& transfer);
 
-/// Returns the number of used bits per receiver. Format packed: bits of the cluster index and of the weights,
-/// maximum over all clusters; all other bits of the words are 0, so that EXT_meshopt_compression removes them
-/// on disk, but not in a vertex buffer. Format float32: a cluster index of 8 bits, or of 16 bits for more
-/// than 256 clusters, and 32 bits for each of the maximum number of components.
+/// Returns the number of used bits per receiver, the maximum over all clusters. Format packed: bits of the
+/// cluster index and of the m_k weights. All other bits of the words are 0: EXT_meshopt_compression removes
+/// these bits in a file, but a vertex buffer contains them. Format float32: 8 bits for the cluster index, or
+/// 16 bits for more than 256 clusters, and 32 bits for each of the m_k weights.
 std::size_t bits_per_receiver(const ClusteredTransfer& transfer);
 
 /// Returns the number of rows in all clusters together: per cluster one mean, three rows per predictor, and

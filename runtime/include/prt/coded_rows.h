@@ -11,12 +11,13 @@
 namespace prt {
 
 /// Entropy code of a matrix of integers, [rows][columns]; the caller stores the number of rows. Each row
-/// starts with its level, an integer in 0..15. In a row of level t, the value of column i has the width
-/// max(0, t - drops[i]): the number of bits that suffice for it in two's complement. A value of width 0 is 0.
-/// The drop of a column is thus its saving in bits, and columns of small values cost few bits in every row.
+/// starts with its level, an integer in 0..15. In a row of level t, the value of column i fits max(0, t -
+/// drops[i]) bits in two's complement; this number is the width of the value, and a value of width 0 is 0. A
+/// large drop makes the values of a column cheap in every row, and limits their size.
 struct RowCode {
-    std::vector<std::uint8_t> drops; ///< [columns] drop of each column, 0..kMaxRowBits
-    std::vector<std::byte> bits;     ///< levels and values of all rows in one arithmetic code
+    std::vector<std::uint8_t>
+        drops; ///< [columns] number of bits by which column i is narrower than the level, 0..15
+    std::vector<std::byte> bits; ///< levels and values of all rows in one arithmetic code
 };
 
 /// Maximum width of a coded value in bits: values are in -16384..16383.

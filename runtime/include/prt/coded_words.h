@@ -1,7 +1,8 @@
 #pragma once
 
 // Entropy code for the packed clusters and weights of receivers in files. Each receiver is predicted from its
-// neighbours in the mesh; rANS with static models codes the differences (docs/format.md). Experimental.
+// neighbours in the mesh. An rANS code (asymmetric numeral systems) with static symbol frequencies codes the
+// differences (docs/format.md). Experimental.
 
 #include "prt/clustered_bases.h"
 #include "prt/coded_rows.h"
@@ -35,11 +36,12 @@ std::vector<EarlierNeighbors> earlier_neighbors(std::span<const std::uint32_t> t
 
 /// Entropy code of the words of all receivers.
 struct WordCode {
-    /// Frequencies of the symbols in each context of the rANS code: a fixed number of rows of 16 columns
-    /// (docs/format.md).
+    /// Symbol frequencies of each context of the rANS code: a fixed number of rows of 16 columns
+    /// (docs/format.md). A context is a class of symbols with equal predictability, such as weights with one
+    /// known neighbour.
     RowCode frequencies;
-    /// Length in bytes of each block of 16384 receivers, as a little-endian 32-bit integer; then the coded
-    /// blocks.
+    /// Coded blocks of 16384 receivers, the last one of fewer. The array starts with the lengths of all
+    /// blocks in bytes, as little-endian 32-bit integers; all blocks follow.
     std::vector<std::byte> bits;
 };
 
@@ -53,7 +55,7 @@ WordCode encode_words(const WordLayout& layout, std::span<const EarlierNeighbors
                       std::span<const std::uint32_t> words);
 
 /// Returns the words that were coded, [receivers][layout.words], without loss. `layout` and `neighbors`
-/// [receivers] must equal those of the call of `encode_words`. Throws `Error` if the code is damaged. The
+/// [receivers] must equal those passed to `encode_words`. Throws `Error` if the code is damaged. The
 /// caller must limit neighbors.size(), the number of receivers: a few bytes can encode any number of equal
 /// receivers. Decodes blocks of 16384 receivers on `threads` threads; 0: all hardware threads.
 std::vector<std::uint32_t> decode_words(const WordCode& code, const WordLayout& layout,

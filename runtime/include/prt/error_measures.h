@@ -53,8 +53,8 @@ double adaptation_luminance(std::span<const double> luminances, std::span<const 
 struct EdgeJumps {
     std::size_t edges = 0; ///< number of edges; if it is 0, all other members are 0
     double rms = 0;        ///< root of the weighted mean of the squared jumps; 0 if all weights are 0
-    double percentile_99 =
-        0;            ///< edges with at most 1 % of the weight have larger jumps; 0 if all weights are 0
+    /// Edges with at most 1 % of the total weight have larger jumps; 0 if all weights are 0.
+    double percentile_99 = 0;
     double max = 0;   ///< largest jump of all edges, regardless of weight
     Edge worst{0, 0}; ///< edge whose jump is `max`
 };
@@ -100,8 +100,8 @@ struct VisibleError {
 /// channels, and M the magnitude of the mean of R over area and channels. Both are those of the reference, or
 /// of the `LitScale` passed to `lit_error`.
 struct LitError {
-    double rms = 0; ///< root of the area-weighted mean of |R - R'|², divided by S; equals `lit_rms` if S is
-                    ///< that of the reference
+    double rms = 0;  ///< root of the area-weighted mean of |R - R'|², divided by S; equals `lit_rms` if S is
+                     ///< that of the reference
     double mean = 0; ///< mean of the reference R over area and channels, in its unit, for any `LitScale`
     double max = 0;  ///< largest |R - R'| of a channel at a receiver with positive area, divided by M
     /// 99.9 % of the receivers with positive area, not weighted by area, have an error of at most this
