@@ -1,7 +1,8 @@
 #pragma once
 
-// Packed clusters and weights of receivers in files: predicted from neighbours, then coded by rANS with
-// static models (docs/format.md). Experimental.
+// Entropy code for the packed clusters and weights of receivers in files. Each receiver is predicted from its
+// neighbours in the mesh. An rANS code (asymmetric numeral systems) with static symbol frequencies codes the
+// differences (docs/format.md). Experimental.
 
 #include "prt/clustered_bases.h"
 #include "prt/coded_rows.h"
@@ -14,40 +15,49 @@
 
 namespace prt {
 
-/// Bit fields in the words of a receiver.
+/// Bit fields in the packed words of a receiver (`WeightFormat::packed`), from the lowest bit upwards: the
+/// cluster index, then the weights of that cluster.
 struct WordLayout {
-    std::vector<ClusterLayout> clusters;
-    int cluster_bits = 0;
-    int words = 0; ///< 32-bit words per receiver
+    std::vector<ClusterLayout> clusters; ///< [clusters] number and bit widths of the weights of each cluster
+    int cluster_bits = 0;                ///< number of bits of the cluster index
+    int words = 0;                       ///< number of 32-bit words per receiver, at least 1
 };
 
-/// Up to three receivers before receiver v that predict it; unused entries are v.
+/// Indices of up to three receivers that predict receiver v; each index is below v. Unused entries are at the
+/// end and contain v itself.
 using EarlierNeighbors = std::array<std::uint32_t, 3>;
 
-/// Returns for each of `receivers` vertices up to three earlier neighbours: the first distinct vertices with
-/// a smaller index that share a triangle with it and are in the same block of receivers. They are in the
-/// order of `triangles` [triangles][3]; within one triangle the smaller index is first. Throws `Error` if a
-/// triangle has a vertex that does not exist.
+/// Returns the predicting receivers of each vertex, [receivers]. The entry of vertex v contains the first
+/// three distinct vertices that share a triangle with v, have a smaller index than v, and are in the same
+/// block of 16384 consecutive receivers as v. "First" is the order of `triangles` [triangles][3], within a
+/// triangle the order of indices. Throws `Error` if a triangle has an index that is not below `receivers`.
 std::vector<EarlierNeighbors> earlier_neighbors(std::span<const std::uint32_t> triangles,
                                                 std::size_t receivers);
 
-/// Coded words of all receivers: the symbol frequencies of each context, and the coded symbols.
+/// Entropy code of the words of all receivers.
 struct WordCode {
+    /// Symbol frequencies of each context of the rANS code: a fixed number of rows of 16 columns
+    /// (docs/format.md). A context is a class of symbols with equal predictability, such as weights with one
+    /// known neighbour.
     RowCode frequencies;
+    /// Coded blocks of 16384 receivers, the last one of fewer. The array starts with the lengths of all
+    /// blocks in bytes, as little-endian 32-bit integers; all blocks follow.
     std::vector<std::byte> bits;
 };
 
-/// Returns whether a code can represent the words exactly: all clusters exist, and all bits after the weights
-/// are zero.
+/// Returns whether `encode_words` can represent `words` [receivers][layout.words] exactly: every cluster
+/// index is below layout.clusters.size(), and all bits after the weights of a receiver are 0.
 bool can_code_words(const WordLayout& layout, std::span<const std::uint32_t> words);
 
-/// Codes `words` [receivers][layout.words], for which `can_code_words` must be true.
+/// Returns the code of `words` [receivers][layout.words], for which `can_code_words` must be true.
+/// `neighbors` [receivers] is the result of `earlier_neighbors`.
 WordCode encode_words(const WordLayout& layout, std::span<const EarlierNeighbors> neighbors,
                       std::span<const std::uint32_t> words);
 
-/// Decodes the words [receivers][layout.words] without loss. Throws `Error` if the code is damaged. Callers
-/// must limit the number of receivers, because a few bytes can encode any number of equal ones. Blocks of
-/// 16384 receivers are decoded on `threads` threads (0: all).
+/// Returns the words that were coded, [receivers][layout.words], without loss. `layout` and `neighbors`
+/// [receivers] must equal those passed to `encode_words`. Throws `Error` if the code is damaged. The
+/// caller must limit neighbors.size(), the number of receivers: a few bytes can encode any number of equal
+/// receivers. Decodes blocks of 16384 receivers on `threads` threads; 0: all hardware threads.
 std::vector<std::uint32_t> decode_words(const WordCode& code, const WordLayout& layout,
                                         std::span<const EarlierNeighbors> neighbors, int threads = 0);
 

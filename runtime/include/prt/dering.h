@@ -15,21 +15,27 @@
 
 namespace prt {
 
-/// Factors of the bands, [l < order]; the factor of the mean (band 0) is 1.
+/// Factors of the bands of a light: entry l multiplies all coefficients of band l. Entries from the order of
+/// the light on are not used.
 using BandFactors = std::array<double, kMaxOrder>;
 
-/// Returns the factors, 0..1, that make `light` non-negative in every direction and channel and change the
-/// exit radiance of receivers least. All channels use the same factors, so that no hue shifts. Factors are 1
-/// if nothing is negative. They do not depend on the rotation of the light: dering once, then rotate. A
-/// channel whose mean is not positive, or less than a millionth of a coefficient, cannot be corrected and is
-/// ignored. Throws `Error` for a light that is not finite, or above 1e37. At order 6 this takes 0.3 to 0.9 ms
-/// on an idle core, depending on the number of iterations.
+/// Returns the factors, 0..1, that make the radiance of `light` non-negative in every direction and channel
+/// and change the exit radiance of receivers least (docs/math.md, eq. 17). Throws `Error` if a coefficient is
+/// not finite or exceeds 1e37 in magnitude.
+///
+/// The factor of band 0 is 1, so that the mean radiance does not change. All channels share the factors, so
+/// that no hue shifts. All factors are 1 if no radiance is negative. A channel is ignored if its band 0
+/// coefficient is not positive, or is less than a millionth of the channel's largest coefficient: such a
+/// channel may remain negative. The factors do not depend on the rotation of the light: dering once, then
+/// rotate. At order 6 a call takes 0.3 to 0.9 ms on an idle core.
 BandFactors dering_factors(const Light& light);
 
-/// Returns `light` times its `dering_factors`; equals `windowed(light, Window::automatic)`.
+/// Returns `light` with each band multiplied by its factor of `dering_factors`; equals `windowed(light,
+/// Window::automatic)`. Throws the errors of `dering_factors`.
 Light deringed(const Light& light);
 
-/// Returns `light` with each band multiplied by its factor.
+/// Returns `light` with all coefficients of band l multiplied by factors[l]. Throws `Error` if a resulting
+/// coefficient is not finite.
 Light with_band_factors(const Light& light, const BandFactors& factors);
 
 } // namespace prt

@@ -1,15 +1,16 @@
 #pragma once
 
 // The work of a game for instances with shared transfer when the lighting changes: computes separate
-// constants for each instance. The shader of the mesh reads these instead of the constants of the model
-// (shaders/prt_instances.glsl).
+// constants for each instance. The shader of the mesh reads the constants of the instance instead of those of
+// the model (shaders/prt_instances.glsl).
 //
 //     InstanceRelighter relighter(transfer, instances); // once; `relighter.table()` into instance attributes
 //     std::vector<glm::vec4> constants(relighter.size());
 //     relighter.update(lighting, constants); // when the lighting changes
 //
-// Constants of an instance are linear in the position within the box of its mesh. A row therefore takes three
-// vectors instead of one. The number of weights per vertex does not change. Experimental.
+// A row is a mean, predictor row or direction of a cluster. Its constant is a color. For an instance the
+// color is a linear function of the position within the box of the mesh, so that a row takes three vectors
+// (red, green, blue) instead of one. The number of weights per vertex does not change. Experimental.
 
 #include "prt/cluster_lighting.h"
 #include "prt/instances.h"
@@ -21,40 +22,50 @@
 
 namespace prt {
 
-/// Range of rows in the constants of compressed transfer that covers the clusters of a mesh.
+/// Range of consecutive rows in the constants of compressed transfer, such as the rows that a mesh reads.
 struct ConstantRows {
-    std::uint32_t first = 0, count = 0;
+    std::uint32_t first = 0, ///< index of the first row
+        count = 0;           ///< number of rows; 0: empty range
 };
-/// Returns the range of rows that receivers [first, first + count) read.
+/// Returns the smallest range that contains all rows of the clusters of receivers [first, first + count). It
+/// also contains the rows of all clusters with indices between these. Returns an empty range if `count` is 0.
 ConstantRows rows_of(const ClusteredTransfer& transfer, std::size_t first, std::size_t count);
-/// Returns the smallest range that contains `a` and `b`.
+/// Returns the smallest range that contains `a` and `b`. If one of them is empty, returns the other.
 ConstantRows joined(const ConstantRows& a, const ConstantRows& b);
 
 /// An instance, and the rows that its mesh reads.
 struct RelitInstance {
-    PlacedInstance placed;
-    ConstantRows rows;
+    PlacedInstance placed; ///< factors, rotation and box
+    ConstantRows rows;     ///< the union by `joined` of `rows_of` over the vertices of the mesh
 };
 
 /// Computes constants for instances. Immutable, thread-safe.
 class InstanceRelighter {
 public:
-    /// Copies the required data. `yaws`: number of equally spaced rotations about +Y; an upright instance
-    /// uses the nearest one for its lighting. 0: each distinct rotation is used exactly. Throws `Error` for
-    /// transfer of lamps or of several outputs, and for constants of more than 4 GB.
+    /// Copies the required data; keeps no references. `transfer` contains all meshes of the instances. For an
+    /// instance that is rotated only about +Y, the lighting is rotated by the nearest multiple of 360 / yaws
+    /// degrees: at most `yaws` rotated lightings are needed. For all other instances, and for all instances
+    /// if `yaws` is 0, the lighting is rotated exactly. Throws `Error` if `transfer` has lamps or several
+    /// outputs, or if the constants exceed 4 GB.
     InstanceRelighter(const ClusteredTransfer& transfer, std::span<const RelitInstance> instances,
                       int yaws = 64);
 
-    /// Number of vectors in the constants of all instances: three per row.
+    /// Returns the number of vectors in the constants of all instances together: three per row.
     std::size_t size() const { return size_; }
-    /// Maximum angular error of an instance's rounded rotation, in degrees.
+    /// Returns the maximum angle, over all instances, between the rotation of an instance and the rounded
+    /// rotation of its lighting, in degrees.
     double max_degrees() const { return rotations_.max_degrees; }
-    /// Returns the attributes of each instance, [instances][2]: in xyz the center of its box, then the
-    /// inverse half widths. The offset of its constants is split: the first w is the value of its low 16
-    /// bits, the second w that of its high 16 bits, both as floats.
+    /// Returns two vectors per instance, [instances][2], for the attributes of the shader. xyz of the first
+    /// is the center of the mesh's box, xyz of the second 1 / half of its size along each axis. The w
+    /// components are integers in floats, 0..65535: the low 16 bits (first) and the high 16 bits (second) of
+    /// a 32-bit offset. The red vector of row r of the model is at index 3 ((r + offset) mod 2^32) of the
+    /// constants; green and blue follow.
     std::vector<glm::vec4> table() const;
-    /// Computes the constants of all instances for `lighting` and writes them to `constants` [size()]. Throws
-    /// `Error` for lamps, and if the lighting has fewer bands than the transfer.
+    /// Computes the constants of all instances for `lighting`, which is in the frame of the world, and writes
+    /// them to `constants` [size()]: instance by instance, row by row, then red, green, blue. The color of a
+    /// row at the relative position u in the box is dot(vector, (u, 1)). Throws `Error` if `lighting.lamps`
+    /// is not empty, or if sky or suns have fewer bands than the transfer. Uses `threads` threads; 0: all
+    /// hardware threads.
     void update(const Lighting& lighting, std::span<glm::vec4> constants, int threads = 0) const;
 
 private:
@@ -62,8 +73,8 @@ private:
     InstanceModes modes_;
     InstanceRotations rotations_;
     std::vector<RelitInstance> instances_;
-    std::vector<std::size_t> begins_;            ///< [instances] index of their first constant
-    std::vector<std::vector<std::uint32_t>> of_; ///< [rotations] instances with each rotation
+    std::vector<std::size_t> begins_; ///< [instances] index of the instance's first vector in the constants
+    std::vector<std::vector<std::uint32_t>> of_; ///< [rotations] indices of the instances with each rotation
     std::size_t size_ = 0;
 };
 

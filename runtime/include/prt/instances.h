@@ -4,8 +4,12 @@
 // change the light (docs/math.md, section 22; docs/format.md, PRTKIT_instances).
 //
 // A mesh is baked alone in the open. The surroundings of an instance block light from above and below the
-// horizon, and reflect light onto it. Fourteen modes of lighting describe this. They are the same for all
-// instances. The factor of each mode is linear in the position within the mesh's box, or is a constant color.
+// horizon, and reflect light onto the instance. Fourteen modes, lightings derived from the scene's lighting,
+// describe both effects; all instances share the modes. Each instance has a factor per mode: ten passing
+// (transmitted) modes have factors that are linear in the position within the mesh's box, four added
+// (reflected) modes have constant colors. Arrays of modes contain the passing modes first.
+// Y_i is the SH basis function number i.
+//
 // Each frame:
 //     modes.lightings(lighting)                      // once for all instances
 // Then per vertex:
@@ -29,151 +33,192 @@
 
 namespace prt {
 
-/// Passing (transmitted) modes: lighting above the horizon times √(4π)·Y_i for the first bands, plus one mode
-/// for all light from below the horizon.
+/// Number of SH bands whose functions Y_i define the first nine passing modes: mode i is the lighting from
+/// above the horizon, multiplied in each direction by √(4π)·Y_i.
 inline constexpr int kPassingOrder = 3;
+/// Number of passing modes: one for each function Y_i, then one for all lighting from below the horizon.
 inline constexpr std::size_t kPassingModes = std::size_t{kPassingOrder} * kPassingOrder + 1;
-/// Added (reflected) modes: the light on horizontal ground, times √(4π)·Y_i for the first bands.
+/// Number of SH bands whose functions Y_i define the added modes: mode i has the radiance √(4π)·Y_i in each
+/// direction, multiplied by the exit radiance of unoccluded horizontal ground of albedo 1.
 inline constexpr int kAddedOrder = 2;
+/// Number of added modes: one for each function Y_i.
 inline constexpr std::size_t kAddedModes = std::size_t{kAddedOrder} * kAddedOrder;
+/// Number of modes. Arrays of all modes contain the passing modes first, then the added modes.
 inline constexpr std::size_t kInstanceModes = kPassingModes + kAddedModes;
 /// Number of floats in `InstanceFactors`.
 inline constexpr std::size_t kInstanceNumbers = 4 * kPassingModes + 3 * kAddedModes;
-/// Maximum magnitude of a factor in files.
+/// Maximum magnitude of each number of `InstanceFactors` that `coded` accepts.
 inline constexpr float kMaxInstanceFactor = 6e4f;
 
-/// Effect of an instance's surroundings on the light, in axes of the world.
+/// Effect of an instance's surroundings on its light: a factor for each mode. The functions Y_i of the modes
+/// are in the axes of the world, unless a function states the axes of the mesh. By default all factors are 0:
+/// no light.
 struct InstanceFactors {
-    /// Factor of a mode at position u in the box, u in [-1, 1]³: dot(passing, (u, 1)).
+    /// Linear function for each passing mode. At the relative position u in the box of the mesh
+    /// (`InstanceBox::position_of`), the factor of mode m is dot(passing[m], (u, 1)) for all colors.
     std::array<glm::vec4, kPassingModes> passing{};
-    std::array<glm::vec3, kAddedModes> added{}; ///< red, green and blue, constant in the box
+    /// Red, green and blue factor of each added mode, equal at all positions.
+    std::array<glm::vec3, kAddedModes> added{};
 
     friend bool operator==(const InstanceFactors&, const InstanceFactors&) = default;
 };
 
-/// Returns the factors of an unoccluded instance: it is lit exactly as its mesh was baked.
+/// Returns the factors of an instance without surroundings. Its light is exactly that of its baked mesh.
 InstanceFactors open_factors();
 
-/// Returns the factors as one array of numbers: first `passing`, then `added`.
+/// Returns the factors as one array of numbers: the four components of each entry of `passing`, then the
+/// three of each entry of `added`.
 std::array<float, kInstanceNumbers> numbers_of(const InstanceFactors& factors);
-/// Returns the factors from an array of `numbers_of`, [kInstanceNumbers].
+/// Returns the factors from `numbers` [kInstanceNumbers] in the order of `numbers_of`.
 InstanceFactors factors_of(std::span<const float> numbers);
 
-/// Factors in bytes, as stored in files: number j is that of `open_factors` plus scales[j] times its byte.
+/// Factors of instances in bytes, as stored in files. Number j of an instance, in the order of `numbers_of`,
+/// is number j of `open_factors` plus scales[j] times byte j of the instance.
 struct CodedFactors {
-    std::array<float, kInstanceNumbers> scales{}; ///< not negative
-    std::vector<std::int8_t> bytes;               ///< [instances][kInstanceNumbers]
+    std::array<float, kInstanceNumbers> scales{}; ///< step of each number, not negative
+    std::vector<std::int8_t> bytes;               ///< [instances][kInstanceNumbers] -127..127
 };
-/// Codes the factors of all instances, each rounded to the nearest step. Throws `Error` for factors that are
-/// not finite or exceed `kMaxInstanceFactor`.
+/// Returns the coded factors of all instances, with scales[j] the largest difference of number j from
+/// `open_factors`, divided by 127. Rounds each number to the nearest step. Throws `Error` for numbers that
+/// are not finite or exceed kMaxInstanceFactor in magnitude.
 CodedFactors coded(std::span<const InstanceFactors> factors);
-/// Returns the factors of all instances.
+/// Returns the factors of all instances, [instances], as rounded by `coded`.
 std::vector<InstanceFactors> decoded(const CodedFactors& coded);
 
-/// Bounding box of a mesh in the frame of the mesh.
+/// Axis-aligned box around a mesh, in the mesh's frame and its unit of length.
 struct InstanceBox {
-    glm::vec3 middle{0}, half{1}; ///< no component of `half` is zero
+    glm::vec3 middle{0}, ///< center of the box
+        half{1};         ///< half of the size along each axis; all components must be greater than 0
 
-    /// Returns the relative position of `position` in the box, -1 to 1 per axis.
+    /// Returns the relative position of `position`, which is in the mesh's frame: -1 to 1 per axis inside the
+    /// box, 0 at its center.
     glm::vec3 position_of(const glm::vec3& position) const { return (position - middle) / half; }
     friend bool operator==(const InstanceBox&, const InstanceBox&) = default;
 };
-/// Returns the bounding box of `positions`, which must not be empty.
+/// Returns the bounding box of `positions`, which must not be empty. Each side is at least a thousandth of
+/// the longest side, so that `half` is not 0 for flat meshes.
 InstanceBox bounding_box(std::span<const glm::vec3> positions);
 
-/// Returns the factor of each mode at a relative position in the box.
+/// Returns the red, green and blue factor of each mode at `position`, a relative position in the box
+/// (`InstanceBox::position_of`).
 std::array<glm::vec3, kInstanceModes> mode_factors(const InstanceFactors& factors, const glm::vec3& position);
 
-/// The modes of lighting as linear operators on its coefficients. Immutable, thread-safe.
+/// Linear operators that map the SH coefficients of a lighting to the lightings of the modes. Immutable,
+/// thread-safe.
 class InstanceModes {
 public:
-    /// `up`: unit vector away from the ground, in the frame of the coefficients; the modes use the axes of
-    /// that frame. Throws `Error` for an invalid order.
+    /// Computes the operators for lighting of `order` bands. `up` is the unit vector away from the ground, in
+    /// the frame of the SH coefficients; the functions Y_i of the modes use the axes of this frame. Throws
+    /// `Error` unless `order` is in 1..kMaxOrder.
     explicit InstanceModes(int order, const glm::dvec3& up = glm::dvec3(0, 1, 0));
 
+    /// Returns the number of bands, as passed to the constructor.
     int order() const { return order_; }
-    /// Returns the operator of a passing mode: [order²][order²], symmetric.
+    /// Returns the operator of passing mode `mode`, 0..kPassingModes - 1: a symmetric matrix [order²][order²]
+    /// that maps the coefficients of one channel of a lighting to those of the mode.
     std::span<const float> matrix(std::size_t mode) const;
-    /// Clamped-cosine lobe of horizontal ground, [order²]. Its product with a lighting is the light that the
-    /// added modes reflect.
+    /// Returns the transfer vector of unoccluded horizontal ground, [order²]. Its dot product with the
+    /// coefficients of a lighting is the exit radiance of the ground for albedo 1, which multiplies the
+    /// functions Y_i of added modes.
     std::span<const float> level() const { return level_; }
-    /// Returns the lighting of each mode for `lighting`. Throws `Error` if `lighting` has lamps or too few
-    /// bands.
+    /// Returns the lighting of each mode under `lighting`, in `order()` bands; ignores further bands of
+    /// `lighting`. A passing mode has suns if `lighting` has suns. An added mode has all its light in `sky`.
+    /// Throws `Error` if `lighting.lamps` is not empty, or if sky or suns have fewer bands than `order()`.
     std::array<Lighting, kInstanceModes> lightings(const Lighting& lighting) const;
 
 private:
     int order_;
-    std::vector<float> matrices_, level_;
+    std::vector<float> matrices_, ///< [kPassingModes][order²][order²]
+        level_;                   ///< [order²]
 };
 
-/// Transfer of a mesh under each mode.
+/// Transfer vectors of the receivers of one mesh under each mode. Immutable, thread-safe.
 class SharedTransfer {
 public:
-    /// Precomputes the modes. `transfer`: transfer of the mesh's receivers. `transfer` and `up` are in the
-    /// frame of the mesh. Throws `Error` for lamps and for several outputs.
+    /// Computes the transfer vectors; keeps no reference to `transfer`. `transfer` contains the receivers of
+    /// the mesh alone, without surroundings. `up` is the unit vector away from the ground. Both are in the
+    /// frame of the mesh. Throws `Error` if `transfer` has lamps or several outputs. Uses `threads` threads;
+    /// 0: all hardware threads.
     SharedTransfer(const Transfer& transfer, const glm::dvec3& up, int threads = 0);
 
+    /// Returns the layout of the transfer passed to the constructor.
     const TransferLayout& layout() const { return layout_; }
+    /// Returns the number of receivers of the mesh.
     std::size_t receivers() const { return responses_.size(); }
-    /// Returns the transfer vector of a receiver under a passing mode, [layout().dimension()].
+    /// Returns the transfer vector of `receiver` under passing mode `mode`, 0..kPassingModes - 1, for factor
+    /// 1: [layout().dimension()], in the frame of the mesh. Its product with the scene's lighting is the exit
+    /// radiance under the lighting of the mode.
     std::span<const float> passing(std::size_t receiver, std::size_t mode) const {
         const std::size_t dimension = layout_.dimension();
         return std::span(passing_).subspan((receiver * kPassingModes + mode) * dimension, dimension);
     }
-    /// Returns the radiance of a receiver under the light √(4π)·Y_i of each added mode.
+    /// Returns the exit radiance of `receiver` for albedo 1 under the radiance √(4π)·Y_i of each added mode
+    /// i, summed over all terms of the transfer.
     const std::array<glm::vec3, kAddedModes>& responses(std::size_t receiver) const {
         return responses_[receiver];
     }
+    /// Returns `InstanceModes::level` in the frame of the mesh: [order²].
     std::span<const float> level() const { return modes_.level(); }
-    /// Computes the transfer vector of a receiver for given mode factors in axes of the mesh. The added modes
-    /// go into the last term, because reflected light is not direct; they are left out if that is `direct`.
+    /// Writes the transfer vector of `receiver` in an instance to `vector` [layout().dimension()], in the
+    /// frame of the mesh. `factors` [kInstanceModes] is the result of `mode_factors` for factors in the axes
+    /// of the mesh. Passing modes contribute to all terms. Added modes are not direct light and contribute to
+    /// the last term only; they are ignored if that term has the kind `direct`. If that term is grey, it uses
+    /// the red factors.
     void sum(std::size_t receiver, std::span<const glm::vec3> factors, std::span<float> vector) const;
 
 private:
     TransferLayout layout_;
     InstanceModes modes_;
-    std::vector<float> passing_; ///< [receivers][modes][dimension]
-    std::vector<std::array<glm::vec3, kAddedModes>> responses_;
+    std::vector<float> passing_;                                ///< [receivers][kPassingModes][dimension]
+    std::vector<std::array<glm::vec3, kAddedModes>> responses_; ///< [receivers]
 };
 
-/// Converts factors from axes of the world to axes of the mesh. `rotation` maps the mesh's frame to the
-/// world's.
+/// Returns factors in the axes of the mesh from `factors` in the axes of the world. `rotation` maps vectors
+/// of the mesh's frame to the world's. Throws `Error` if `rotation` is not a rotation.
 InstanceFactors in_axes_of_mesh(const InstanceFactors& factors, const glm::dmat3& rotation);
-/// Converts factors from axes of the mesh to axes of the world. `rotation` maps the mesh's frame to the
-/// world's.
+/// Returns factors in the axes of the world from `factors` in the axes of the mesh. `rotation` maps vectors
+/// of the mesh's frame to the world's. Throws `Error` if `rotation` is not a rotation.
 InstanceFactors in_axes_of_world(const InstanceFactors& factors, const glm::dmat3& rotation);
 
-/// Position and factors of one instance of a mesh.
+/// Factors and rotation of one instance of a mesh. Translation and uniform scale are not stored: they do not
+/// change how the mesh shadows itself.
 struct PlacedInstance {
-    InstanceFactors factors; ///< in axes of the world
-    glm::dmat3 rotation{1};  ///< from the mesh's frame to the world's
-    InstanceBox box;
+    InstanceFactors factors; ///< in the axes of the world
+    glm::dmat3 rotation{1};  ///< maps vectors of the mesh's frame to the world's; without scale
+    InstanceBox box;         ///< box of the mesh, in the mesh's frame
 };
 
-/// Computes the transfer of an instance in the world's frame, `vectors` [receivers][dimension]. `positions`
-/// [receivers] are in the mesh's frame. `shared` must have been built with inverse(rotation) of the world's
-/// up.
+/// Writes the transfer vectors of an instance, in the frame of the world, to `vectors`
+/// [shared.receivers()][shared.layout().dimension()]. `positions` [shared.receivers()] are in the frame of
+/// the mesh. The `up` of `shared` must be transpose(instance.rotation) · (0, 1, 0): the up direction of the
+/// world in the frame of the mesh. Throws `Error` if instance.rotation is not a rotation.
 void expand_instance(const SharedTransfer& shared, const PlacedInstance& instance,
                      std::span<const glm::vec3> positions, std::span<float> vectors);
 
-/// Assigns each instance a rotation in which its lighting is evaluated, so that few rotated lightings are
-/// needed.
+/// Rotations that replace the rotations of instances. Instances with the same replacement share one rotated
+/// lighting.
 struct InstanceRotations {
-    std::vector<glm::dmat3> rotations; ///< from the mesh's frame to the world's
-    std::vector<std::uint32_t> of;     ///< [instances] index into `rotations`
-    double max_degrees = 0;            ///< maximum angle between an instance's rotation and its assigned
-                                       ///< rotation
+    std::vector<glm::dmat3> rotations; ///< distinct replacements; map the mesh's frame to the world's
+    std::vector<std::uint32_t> of;     ///< [instances] index in `rotations` of the replacement
+    double max_degrees =
+        0; ///< maximum angle in degrees between the rotation of an instance and its replacement
 };
-/// Groups rotations. Rotations about +Y are rounded to `bins` equally spaced ones. Other rotations share an
-/// entry only if they differ by at most `degrees`; so do all rotations if `bins` is 0.
+/// Groups `rotations` [instances], which map the mesh's frame to the world's. If `bins` is greater than 0,
+/// rotations about +Y are rounded to the nearest multiple of 360 / bins degrees. Every other rotation, and
+/// every rotation if `bins` is 0, is replaced by the first entry of the result that differs by at most
+/// `degrees` degrees. If no entry does, the rotation itself becomes an entry.
 InstanceRotations instance_rotations(std::span<const glm::dmat3> rotations, int bins, double degrees = 0.01);
 
-/// Rotates the lightings of all modes into the mesh frame of a rotation, for the constants of instances.
+/// Returns `lightings`, the result of `InstanceModes::lightings` in the frame of the world, rotated into the
+/// frame of the mesh. `rotation` maps vectors of the mesh's frame to the world's. Throws `Error` if
+/// `rotation` is not a rotation.
 std::array<Lighting, kInstanceModes> rotated_into(const glm::dmat3& rotation,
                                                   std::array<Lighting, kInstanceModes> lightings);
 
-/// Computes the exit radiance of a vertex for albedo 1. `position`: relative position in the box; `of_modes`:
-/// exit radiance of the vertex under each mode.
+/// Returns the exit radiance of a vertex of an instance for albedo 1: the sum over all modes of factor times
+/// exit radiance. `position` is the relative position of the vertex in the box (`InstanceBox::position_of`).
+/// `of_modes` is the exit radiance of the vertex for albedo 1 under the lighting of each mode, rotated into
+/// the frame of the mesh.
 glm::vec3 exit_radiance(const InstanceFactors& factors, const glm::vec3& position,
                         std::span<const glm::vec3, kInstanceModes> of_modes);
 

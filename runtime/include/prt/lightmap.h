@@ -1,6 +1,8 @@
 #pragma once
 
-// Transfer of texels, for lightmaps that can be relit. Experimental.
+// Transfer of texels, for lightmaps that can be relit. A scene has one or several maps; "texel number" counts
+// the texels of all maps, map by map, "number within the map" those of one map. Both count row by row from v
+// = 0, and from u = 0 in each row. Experimental.
 
 #include "prt/adjacency.h"
 #include "prt/baked_transfer.h"
@@ -13,78 +15,88 @@
 
 namespace prt {
 
-/// Size of a lightmap; texels are stored row by row from v = 0.
+/// Size of one lightmap.
 struct LightmapSize {
-    int width = 0, height = 0;
-    bool repeats = false; ///< some triangles use UVs outside 0..1, where the map repeats
+    int width = 0,        ///< number of texels along u
+        height = 0;       ///< number of texels along v
+    bool repeats = false; ///< true: some triangles have UVs outside 0..1, where the map repeats; false: the
+                          ///< map is clamped
 
+    /// Returns the number of texels of the map.
     std::size_t texels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
     friend bool operator==(const LightmapSize&, const LightmapSize&) = default;
 };
 
-/// Lightmap and UV set of a primitive.
+/// Lightmap and UV set of one primitive.
 struct LightmapPlacement {
-    std::size_t map = 0;
-    int texcoord = 1; ///< TEXCOORD_n
+    std::size_t map = 0; ///< index in `LightmapLayout::maps`
+    int texcoord = 1;    ///< n of the vertex attribute TEXCOORD_n that contains the UVs
 
     friend bool operator==(const LightmapPlacement&, const LightmapPlacement&) = default;
 };
 
-/// Layout of all lightmaps; texels are numbered map by map.
+/// Layout of all lightmaps of a scene.
 struct LightmapLayout {
-    std::vector<LightmapSize> maps;
-    std::vector<LightmapPlacement> placements; ///< [primitives of the scene] map and UV set of each
+    std::vector<LightmapSize> maps;            ///< size of each map
+    std::vector<LightmapPlacement> placements; ///< [Scene::primitives] map and UV set of each primitive
 
+    /// Returns the number of texels of all maps together.
     std::size_t texels() const;
-    /// Returns the number of the first texel of each map, and the total number of texels: [maps + 1].
+    /// Returns the texel number of the first texel of each map, [maps + 1]; the last entry is the number of
+    /// texels of all maps.
     std::vector<std::size_t> first_texels() const;
     friend bool operator==(const LightmapLayout&, const LightmapLayout&) = default;
 };
 
-/// Lightmaps as a bake produces them. Receivers are the texels that charts touch, and the adjacent texels
-/// that bilinear filters read.
+/// Lightmaps as a bake produces them. A receiver is a texel that a chart touches, or an adjacent texel that
+/// bilinear filters read.
 struct BakedLightmap {
-    LightmapLayout layout;
-    std::vector<std::uint32_t> texels; ///< [receivers] in ascending order
-    /// [receivers] m²: surface area weighted by the bilinear filters that read the texel; the sum is the
-    /// surface area.
+    LightmapLayout layout;             ///< sizes of the maps, and map of each primitive
+    std::vector<std::uint32_t> texels; ///< [receivers] texel number of each receiver, in ascending order
+    /// [receivers] surface area in m² that the texel represents. Each piece of the surface is divided among
+    /// the four texels of its bilinear sample by their weights; the sum is the area of the surface.
     std::vector<float> areas;
     /// Pairs of receivers that show the same surface point on both sides of a UV seam, in ascending order,
     /// without duplicates.
     std::vector<Edge> seams;
-    BakedTransfer baked;
+    BakedTransfer baked; ///< transfer vectors of the receivers, in the order of `texels`
 };
 
-/// Lightmaps as a game loads them. Receivers are all texels.
+/// Lightmaps as a game loads them. Every texel is a receiver.
 struct CompressedLightmap {
-    LightmapLayout layout;
-    CompressedTransfer compressed;
+    LightmapLayout layout;         ///< sizes of the maps, and map of each primitive
+    CompressedTransfer compressed; ///< receivers in the order of texel numbers: [layout.texels()]
 };
 
-/// Point on a UV seam. The weighted sum of receiver values is the bilinear sample on one side minus the
-/// sample on the other: the jump of light at this point.
+/// Point on a UV seam, with the texels of its bilinear samples on both sides. The sum of weights[i] times the
+/// value of receivers[i] is the sample on the first side minus the sample on the second: the jump of light.
 struct SeamJump {
+    /// Indices of receivers: the four texels of the sample on the first side, then those of the second side.
     std::array<std::uint32_t, 8> receivers;
+    /// Bilinear weight of each entry of `receivers`; negative on the second side. The sum is 0.
     std::array<float, 8> weights;
 };
 
-/// Returns the pairs of receivers whose light must match: adjacent ones among `texels` [receivers], and the
-/// pairs of `seams`.
+/// Returns the pairs of receivers whose light must match, in ascending order, without duplicates: receivers
+/// of horizontally or vertically adjacent texels of a map, and the pairs of `seams`. `texels` [receivers]
+/// contains texel numbers in ascending order, `seams` indices of receivers.
 std::vector<Edge> lightmap_edges(const LightmapLayout& layout, std::span<const std::uint32_t> texels,
                                  std::span<const Edge> seams);
 
-/// Returns for each texel of a map the index of a nearby entry of `texels`, [size.texels()]. Entries are
-/// texel numbers within the map. A texel that is in `texels` gets its own index. Returns 0 everywhere if
+/// Returns for each texel of one map the index i of the nearest entry texels[i], [size.texels()]. The
+/// distance is the number of horizontal and vertical steps between texels, across the edges of the map if
+/// `size.repeats`. `texels` contains numbers within the map, without duplicates. Returns all zeros if
 /// `texels` is empty.
 std::vector<std::uint32_t> nearest_receivers(const LightmapSize& size, std::span<const std::uint32_t> texels);
 
-/// The four texels of a bilinear sample, with weights.
+/// The four texels of a bilinear sample. The sample is the sum of the weights times the values of the texels.
 struct BilinearTexels {
-    std::uint32_t texels[4]; ///< number within the map
-    double weights[4];
+    std::uint32_t texels[4]; ///< numbers within the map; a texel may occur twice, at the edge of a map
+    double weights[4];       ///< weight of each texel, 0..1; the sum is 1
 };
-/// Returns the texels of the bilinear sample at (x, y), in texels from the corner of the map; texel i has its
-/// center at i + 0.5. Positions outside the map repeat if `size.repeats`, otherwise they are clamped.
+/// Returns the texels of the bilinear sample at (x, y), with x the coordinate u times the width and y the
+/// coordinate v times the height of the map. Column or row i has its center at i + 0.5. Outside the map, the
+/// map repeats if `size.repeats`, else the position is clamped. A coordinate that is not finite counts as 0.
 BilinearTexels bilinear_texels(const LightmapSize& size, double x, double y);
 
 } // namespace prt
