@@ -23,9 +23,9 @@ class OppositeTriangles;
 
 /// A segment of a ray: the points origin + t direction for t from `from` to `to`.
 struct Ray {
-    /// Origin in metres, relative to Scene::origin; direction of any length greater than 0.
-    glm::vec3 origin, direction;
-    float from = 0; ///< begin of the segment, in lengths of `direction`
+    glm::vec3 origin, ///< metres, relative to Scene::origin
+        direction;    ///< any length greater than 0
+    float from = 0;   ///< begin of the segment, in lengths of `direction`
     /// End of the segment, in lengths of `direction`. The default is infinity: the ray has no end.
     float to = std::numeric_limits<float>::infinity();
 };
@@ -51,16 +51,19 @@ public:
     /// Returns the nearest hit along `ray`, or no value if the ray hits nothing. If a mesh contains a surface
     /// as two opposite triangles, the hit is on the triangle whose front faces the origin of the ray.
     std::optional<RayHit> nearest(const Ray& ray) const;
-    /// Returns the nearest hit on a triangle for whose id `accepts` returns true, or no value if there is no
-    /// such hit. The ray passes all other triangles. `accepts` is called during the query, on this thread.
+    /// Returns the nearest hit on an accepted triangle, or no value without such a hit. The ray passes all
+    /// other triangles. `accepts` gets a triangle id and returns true to accept it; it is called during the
+    /// query, on the calling thread. If a mesh contains a surface as two opposite triangles, the hit may be
+    /// on the back of one of them.
     std::optional<RayHit> nearest(const Ray& ray,
                                   const std::function<bool(unsigned triangle)>& accepts) const;
     /// Returns whether `ray` hits any triangle.
     bool occluded(const Ray& ray) const;
 
     /// Returns the pairs of triangles that have the same corners in opposite order. A direct query of
-    /// `handle()` may report the triangle that shows its back to the ray. The caller must then replace it by
-    /// the other triangle of the pair; `nearest` does this itself.
+    /// `handle()` may report a hit on the back of one triangle of a pair. The caller must then replace the
+    /// hit by a hit on the front of the other triangle (OppositeTriangles::shown, an internal function). The
+    /// function `nearest(ray)` does so itself.
     const OppositeTriangles& opposites() const { return *opposites_; }
 
     /// Returns the RTCScene of Embree, for queries of several rays at once. This object owns it.
@@ -92,8 +95,8 @@ public:
 
     /// Location of a triangle in a scene.
     struct Triangle {
-        /// Index into Scene::primitives, and index into Primitive::triangles of that primitive.
-        std::uint32_t primitive, triangle;
+        std::uint32_t primitive, ///< index into Scene::primitives
+            triangle;            ///< index into Primitive::triangles of this primitive
     };
     /// Returns the location in the scene of the triangle with the id `id`.
     Triangle triangle(unsigned id) const { return triangles_[id]; }

@@ -33,19 +33,22 @@ struct RefineStatistics {
     int rounds = 0; ///< number of rounds, each of which splits some triangles; 0: nothing was split
     /// Size of a scene, and its error.
     struct Size {
-        std::size_t vertices = 0, triangles = 0; ///< numbers in the whole scene
-        double error = 0; ///< interpolation error of direct light, relative L2 over the whole surface
+        std::size_t vertices = 0, ///< number of vertices of the scene
+            triangles = 0;        ///< number of triangles of the scene
+        double error = 0;         ///< interpolation error of direct light, relative L2 over the whole surface
     };
-    Size before, after;               ///< original scene, and refined scene
-    int rays_per_point = 0;           ///< number of rays that were traced for each test point
-    std::size_t points = 0, rays = 0; ///< number of all test points, and number of all traced rays
-    double seconds = 0;               ///< duration of `refine`
+    Size before,            ///< original scene
+        after;              ///< refined scene
+    int rays_per_point = 0; ///< number of rays that were traced for each test point
+    std::size_t points = 0, ///< number of all test points on triangles
+        rays = 0;           ///< number of all traced rays
+    double seconds = 0;     ///< duration of `refine`
 };
 
 /// Result of `refine`.
 struct RefineResult {
     Refinement refinement; ///< added vertices and new triangles; pass it to `refined` (prt/refinement.h)
-    RefineStatistics statistics;
+    RefineStatistics statistics; ///< errors before and after, sizes, and the reason for the end
 };
 
 /// Chooses triangles of `scene` to split, and returns the refinement; `scene` is not changed. Measures the
@@ -53,8 +56,8 @@ struct RefineResult {
 /// triangles. Splits triangles with the largest errors until a condition of `RefineEnd` is met. `options` are
 /// those of the bake that follows. On the CPU the result is deterministic and does not depend on the number
 /// of threads. Needs about 2.4 kB of memory per vertex of the refined scene at order 6. Throws `Error` for
-/// invalid options, BakeMethod::raster, FitMode::vertex and a target error of the bake, and `Cancelled` after
-/// a stop request.
+/// invalid options, and if `options` have BakeMethod::raster, FitMode::vertex or a `target_error`. Throws
+/// `Cancelled` after a stop request.
 RefineResult refine(const Scene& scene, const BakeOptions& options, const RefineOptions& how,
                     const Progress& progress = {});
 

@@ -21,9 +21,9 @@ struct Medium {
     double ior = 1.3;         ///< index of refraction relative to air
 };
 
-/// Limits that a bake checks, in 1 / unit of the scene: sigma_s' of a medium must be in kMinScattering ..
-/// kMaxCoefficient, and sigma_a in 0 .. kMaxCoefficient. The densest measured medium has 2e4 1/m.
-inline constexpr double kMinScattering = 1e-9, kMaxCoefficient = 1e9;
+/// Limits that a bake checks, in 1 / unit of the scene. The densest measured medium has sigma_s' = 2e4 / m.
+inline constexpr double kMinScattering = 1e-9, ///< minimum of sigma_s'; the minimum of sigma_a is 0
+    kMaxCoefficient = 1e9;                     ///< maximum of sigma_s' and of sigma_a
 
 /// A measured medium of Jensen et al. 2001, figure 5.
 struct NamedMedium {

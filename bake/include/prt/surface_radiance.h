@@ -26,8 +26,8 @@ struct ReferenceLight {
     /// renderer adds no suns, and `all` is used for direct light.
     std::optional<DistantLight> sky;
     std::vector<Sun> suns; ///< suns whose direct light the renderer adds with sharp shadows; may be empty
-    /// SH coefficients of order kMaxOrder: of the light without `suns`, and of `suns` alone.
-    Light sky_bands, sun_bands;
+    Light sky_bands,       ///< SH coefficients of order kMaxOrder: the complete light without `suns`
+        sun_bands;         ///< SH coefficients of order kMaxOrder: `suns` alone; zero if `suns` is empty
     std::string name = {}; ///< for reports; may be empty
 
     /// Returns the exact light that arrives at a point without a bounce: `sky`, or `all` if `sky` has no
@@ -49,10 +49,10 @@ inline constexpr int kCountedBounces = 8;
 /// Exit radiance at one point, split by the number of bounces of the light and by its SH band.
 struct BandRadiance {
     using Bands = std::array<glm::vec3, kMaxOrder>; ///< [band] radiance that the light of this band causes
-    /// [bounces][band] radiance after exactly `bounces` bounces, 0..kCountedBounces, by
-    /// ReferenceLight::sky_bands and by ReferenceLight::sun_bands. suns[0] is zero: the renderer adds direct
-    /// light of suns.
-    std::array<Bands, kCountedBounces + 1> sky{}, suns{};
+    /// [bounces][band] radiance of light after exactly `bounces` bounces, 0..kCountedBounces.
+    std::array<Bands, kCountedBounces + 1> sky{}, ///< caused by the bands of ReferenceLight::sky_bands
+        suns{}; ///< caused by the bands of ReferenceLight::sun_bands; zero for 0 bounces, because the
+                ///< renderer adds direct light of suns
 };
 
 /// Limits of a transfer whose exit radiance `SurfaceRadiance::under` computes.

@@ -24,9 +24,8 @@ struct SurfacePoint {
 
 /// Lambertian scattering of a surface, linear Rec. 709.
 struct Scattering {
-    /// Fraction of the irradiance on one side that leaves from the same side, and fraction that leaves from
-    /// the opposite side; each 0..1.
-    glm::vec3 reflected, transmitted;
+    glm::vec3 reflected, ///< fraction of the irradiance on one side that leaves from the same side, 0..1
+        transmitted;     ///< fraction of the irradiance on one side that leaves from the other side, 0..1
 };
 
 /// Properties of a scene. Each member is true if at least one surface of the scene has the property.
@@ -82,8 +81,9 @@ public:
     /// light that leaves such a surface has passed the medium.
     bool solid(std::uint32_t triangle) const { return kinds_[triangles_[triangle].primitive].solid; }
     /// Returns the fraction of a ray that the surface stops at `point`, 0..1; the rest passes straight on.
-    /// The value is 1 for opaque materials, 0 or 1 for cut-outs, and alpha for blended ones, times 1 minus
-    /// the transmittance of glass. Cut-outs ignore the footprint, because many rays average the texture.
+    /// The value is c (1 - g): c is 1 for opaque materials, 0 or 1 for cut-outs, and alpha for blended
+    /// materials; g is the transmittance of glass, and 0 for all other materials. Cut-outs ignore the
+    /// footprint, because many rays average the texture.
     float coverage(const SurfacePoint& point) const;
     /// Returns the diffuse scattering of the part of the surface that stops rays, at `point`.
     Scattering scattering(const SurfacePoint& point) const;

@@ -33,7 +33,8 @@ inline constexpr int kMaxTexels = 8192; ///< maximum number of texels per side o
 struct Atlas {
     std::vector<std::size_t> primitives; ///< indices into Scene::primitives, ascending
     int uv_set = 1;                      ///< n of the UV set TEXCOORD_n of these primitives
-    int width = 0, height = 0;           ///< size in texels
+    int width = 0,                       ///< number of texels along u
+        height = 0;                      ///< number of texels along v
     bool repeats = false; ///< true: some triangles have UVs outside 0..1, where the texture repeats
 
     std::size_t texels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }

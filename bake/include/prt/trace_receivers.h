@@ -56,10 +56,10 @@ int first_half(int rays);
 using HalvesSink =
     std::function<void(std::uint32_t receiver, std::span<const Hit> all, std::span<const Hit> half)>;
 
-/// Output of `trace_in_halves`: direct transfer from all rays, and from the first half of the rays alone.
-/// Both have one term with one channel: [receivers][order²].
+/// Output of `trace_in_halves`: two transfers with one term of one channel, [receivers][order²].
 struct TracedHalves {
-    Transfer &all, &half;
+    Transfer &all, ///< direct transfer from all rays
+        &half;     ///< direct transfer from the first half of the rays alone
 };
 
 /// Traces the receivers with the indices `indices` and replaces their vectors in both members of `to`. The

@@ -30,9 +30,9 @@ struct TraceOptions {
     /// Index of the first ray in the sequence: a multiple of the smallest power of two that is at least
     /// `rays`, or a multiple of 1024 if `rays` is larger than 1024.
     std::uint32_t first_ray = 0;
-    /// Only one of `hit_stride` rays finds its hit; the weight of this hit also represents blocked rays that
-    /// only test visibility. 1: every ray finds its hit. Used if a sink gets the hits; every ray finds its
-    /// hit in scenes with cut-out, blended or glass surfaces.
+    /// For calls with a sink: one of `hit_stride` rays is traced to its nearest hit, and the sink gets this
+    /// hit. All other rays only test whether they are blocked; the weights of the hits represent them. 1: all
+    /// rays are traced to their hits, as always in scenes with cut-out, blended or glass surfaces.
     int hit_stride = 1;
 };
 
@@ -44,14 +44,14 @@ struct Hit {
     /// Number of rays that the hit represents; fractional for surfaces that stop a share of a ray. The sum
     /// over all hits of a receiver is its number of blocked rays.
     float weight;
-    float footprint; ///< area of the surface that the hit represents, m²; 0 if SurfaceTraits::textured is
-                     ///< false
+    float footprint; ///< area of the surface that the hit represents, m², for filters of textures; 0 if
+                     ///< SurfaceTraits::textured is false
     bool back;       ///< true: the ray hit the back of the triangle
 };
 
 /// Callback that gets all hits of the receiver with index indices[i], for a call of `Tracer::trace` with
 /// `indices`. It is called once per receiver, from several threads at the same time; `hits` is valid only
-/// during the call. If a GPU fails during the call and the CPU continues, it may be called twice.
+/// during the call. If a GPU fails and the CPU repeats its work, the callback may get a receiver twice.
 using HitSink = std::function<void(std::size_t i, std::span<const Hit> hits)>;
 
 /// Wall-clock time of the stages of tracing, in seconds. If a tracer cannot measure stages separately, their
@@ -68,16 +68,18 @@ struct TraceSeconds {
 class Tracer {
 public:
     virtual ~Tracer() = default;
-    /// Returns the hardware that traces, `cpu` or `gpu`; after a failure of the GPU this can change to `cpu`.
+    /// Returns the hardware that traces: `cpu` or `gpu`, never `automatic`. The value changes to `cpu` if the
+    /// GPU fails and the CPU continues.
     virtual Backend backend() const = 0;
+    /// Returns the method that samples visibility.
     virtual BakeMethod method() const { return BakeMethod::trace; }
     /// Returns whether `trace` supports hits (a sink) and ranges of rays (TraceOptions::first_ray). If false,
     /// the sink must be empty and `first_ray` 0.
     virtual bool notes_hits() const { return true; }
-    virtual std::string device() const = 0; ///< name of the device for reports, for one line of text
+    virtual std::string device() const = 0; ///< name of the device, one line for reports
     /// Returns the recommended number of receivers for one call of `trace`, at least 1. A call then takes
-    /// about a tenth of a second on a CPU, so that the caller can check for stop requests between calls. It
-    /// may take seconds on a GPU, whose tracers check for stop requests during the call.
+    /// about a tenth of a second on a CPU, so that the caller can check for stop requests between calls. On a
+    /// GPU a call may take seconds, and checks for stop requests itself.
     virtual std::size_t batch_size(const TraceOptions& options) const = 0;
     /// Computes the direct transfer with shadows (docs/math.md, eq. 9) of the receivers with the indices
     /// `indices`, and writes it to `vectors`: [indices][order²], in the order of `indices`. `sink`, if not

@@ -23,7 +23,7 @@ struct Unwrapping {
 
 /// Creates texture coordinates without overlaps, and ignores the existing ones. Cuts surfaces into charts
 /// whose triangles face mainly along the same coordinate axis, projects each chart along this axis, and packs
-/// the charts into square textures. At least two empty texels are next to every side of a chart. `options`:
+/// the charts into square textures, with at least two empty texels next to every side of a chart. `options`:
 /// AtlasMode::automatic means one texture; `uv_set` is ignored; either `size` or `per_metre` must be greater
 /// than 0. With `size`, the charts get the highest resolution that fits. Throws `Error` if a texture of this
 /// size is too small for the charts, or if `per_metre` needs more than kMaxTexels per side.

@@ -18,8 +18,9 @@ constexpr int kRaysWorthAFit = 2048;
 
 /// Settings of a volume bake.
 struct VolumeOptions {
-    double spacing = 1; ///< width of the finest cells in metres: distance of adjacent probes; if `error` is
-                        ///< set, before the split of cells. Ignored if `probes` is not 0
+    /// Distance of adjacent probes in the finest cells, metres. If `error` is not 0, finer cells are added
+    /// where they are needed. Ignored if `probes` is not 0.
+    double spacing = 1;
     /// Maximum number of probes: the bake uses about the smallest spacing that does not exceed it. At least
     /// kBrickProbes; requires that `error` is 0. 0: no maximum, `spacing` is used.
     std::size_t probes = 0;
@@ -42,26 +43,29 @@ struct VolumeOptions {
 struct VolumeStatistics {
     /// Numbers of probes, and of other parts of the volume.
     struct Probes {
-        /// Number of all probes; of probes that are measured next to a corner of a cell, because the corner
-        /// is too near to a surface; and of hanging nodes.
-        std::size_t all = 0, moved = 0, hanging = 0;
-        std::size_t invalid = 0; ///< probes inside geometry, which take the light of other probes
-        /// Number of bricks, and number of points in free space to which probes were fitted (0: no fit).
-        std::size_t bricks = 0, fit_points = 0;
+        std::size_t all = 0, ///< number of all probes
+            moved = 0,       ///< number of probes that are measured next to the corner of their cell, because
+                             ///< this corner is too near to a surface
+            hanging = 0;     ///< number of hanging nodes, whose light is interpolated
+        std::size_t invalid = 0; ///< number of probes inside geometry, which take the light of other probes
+        std::size_t bricks = 0,  ///< number of bricks
+            fit_points = 0;      ///< number of points in free space to which probes were fitted; 0: no fit
     };
-    Probes probes;
+    Probes probes;        ///< numbers of probes, bricks and points
     std::size_t rays = 0; ///< number of all traced rays, from vertices, probes and points of the fit
     std::string device;   ///< name of the device that traced the rays
-    /// Durations in seconds: light at the vertices, measurement of probes, fit of probes (0: no fit), and the
-    /// whole bake.
+    /// Durations of the steps of the bake, in seconds.
     struct Seconds {
-        double sources = 0, probes = 0, fit = 0, all = 0;
+        double sources = 0, ///< computation of the light at vertices, which probes receive
+            probes = 0,     ///< measurement of the probes, including the split of bricks
+            fit = 0,        ///< fit of the probes to points between them; 0: no fit
+            all = 0;        ///< whole bake
     };
-    Seconds seconds;
+    Seconds seconds;           ///< durations of the steps
     double rounding_error = 0; ///< relative L2 error of the transfer if it is stored as float16
-    /// Relative L2 error of interpolation between probes, at the points of the fit, before and after the fit;
-    /// 0 without a fit.
-    double fit_before = 0, fit_after = 0;
+    double fit_before = 0,     ///< relative L2 error of interpolation between probes before the fit, at the
+                               ///< points of the fit; 0 without a fit
+        fit_after = 0;         ///< the same error after the fit; 0 without a fit
     std::vector<std::string> notices; ///< messages for the user about parts of the scene that the bake left
                                       ///< out or repaired, one line each
 

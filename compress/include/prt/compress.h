@@ -109,9 +109,9 @@ struct CompressOptions {
 /// Measurements of a compression. "The metric" is CompressOptions::metric or its default. Errors are
 /// fractions, weighted by area: 0.01 is 1 %.
 struct CompressStatistics {
-    /// Relative error after each round of clustered PCA, before weights are quantised: an approximation of
-    /// `lit_rms`, weighted by visibility. With lamps, it is an error of logarithms and cannot be compared
-    /// with `lit_rms`.
+    /// [rounds of clustered PCA] relative error after the round, before weights are quantised. It
+    /// approximates `lit_rms`, but receivers with more visible errors count more. With lamps it is an error
+    /// of logarithms of light and cannot be compared with `lit_rms`.
     std::vector<double> lit_rms_by_iteration;
     double lit_rms = 0; ///< `expected_lit_rms` (prt/light_metric.h) of the result under the metric
     /// Contrast error (docs/math.md, eq. 33b) with one lamp on and all other light off: root mean square over
@@ -137,8 +137,8 @@ struct CompressStatistics {
     /// Returns the number of multiply-adds of a color per receiver in the vertex shader, averaged over all
     /// receivers: one per component and one per predictor row.
     double operations() const { return mean_components + predictor_rows; }
-    /// Returns bytes per receiver, plus the bytes of the bases divided by `receivers`, the number of
-    /// receivers.
+    /// Returns `bytes_per_receiver` plus the share of one receiver in `basis_bytes`. `receivers`: number of
+    /// receivers of the transfer.
     double bytes_with_bases(std::size_t receivers) const {
         return static_cast<double>(bytes_per_receiver) +
                static_cast<double>(basis_bytes) / static_cast<double>(receivers);
