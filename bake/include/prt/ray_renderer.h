@@ -1,5 +1,7 @@
 #pragma once
 
+// Renders a `Picture` on the CPU by rays from the camera.
+
 #include "prt/picture.h"
 #include "prt/trace_scene.h"
 
@@ -7,17 +9,19 @@ namespace prt {
 
 /// Settings of `render_rays`.
 struct RayPictureOptions {
-    /// Number of rays per pixel and sun, spread over the sun's disc; more rays make penumbrae smoother. At
-    /// least one ray per sample is traced.
+    /// Number of shadow rays per pixel and sun, spread over the disc of the sun. More rays make penumbrae
+    /// smoother. The number is rounded up to a multiple of the samples of a pixel (Picture::samples²). A sun
+    /// with half angle 0 gets one ray per sample.
     int sun_rays = 32;
-    int threads = 0; ///< number of threads; 0: all
+    int threads = 0; ///< number of CPU threads; 0: all hardware threads
 };
 
-/// Draws `picture` with primary rays: linear radiance, [height · samples][width · samples]. Suns light
-/// visible surfaces by interpolated normals, except on the far side of triangles that face away from the sun.
-/// Sun light passes transparent surfaces and thin sheets. Surfaces that are `solid` in `scene` get no sun
-/// light, because their light comes from the medium inside. `scene` must be built from `*picture.scene`, with
-/// textures if suns shine through cut-outs.
+/// Renders `picture` and returns linear Rec. 709 radiance, one pixel per sample, top row first:
+/// [height · samples][width · samples], with the sizes of `picture`. The caller averages the samples of a
+/// pixel. The irradiance of a sun depends on the interpolated normal, and is zero on the side of a triangle
+/// that faces away from the sun. Sun light passes transparent surfaces and thin sheets. Surfaces whose
+/// material is `solid` in `scene` (TraceSceneOptions::solid) get no sun light, because a medium inside
+/// spreads it. `scene` must be built from `*picture.scene`, with textures if suns shine through cut-outs.
 Image render_rays(const Picture& picture, const TraceScene& scene, const RayPictureOptions& options = {});
 
 } // namespace prt

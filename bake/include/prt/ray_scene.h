@@ -21,69 +21,84 @@ namespace prt {
 
 class OppositeTriangles;
 
-/// A ray, or a segment of one.
+/// A segment of a ray: the points origin + t direction for t from `from` to `to`.
 struct Ray {
-    glm::vec3 origin, direction;
-    float from = 0; ///< begin and end of the segment, in lengths of `direction`
+    glm::vec3 origin, ///< metres, relative to Scene::origin
+        direction;    ///< any length greater than 0
+    float from = 0;   ///< begin of the segment, in lengths of `direction`
+    /// End of the segment, in lengths of `direction`. The default is infinity: the ray has no end.
     float to = std::numeric_limits<float>::infinity();
 };
 
 /// Hit of a ray on a triangle.
 struct RayHit {
-    unsigned triangle; ///< index in the order of the scene's primitives and their triangles
-    glm::vec2 uv;      ///< barycentric coordinates of corners 1 and 2
-    float distance;    ///< distance in lengths of the ray's direction
+    unsigned triangle; ///< index among the triangles of all primitives, in the order of Scene::primitives
+    glm::vec2 uv;      ///< barycentric coordinates of the hit for corners 1 and 2 of the triangle, 0..1
+    float distance;    ///< distance from the ray's origin, in lengths of the ray's direction
 };
 
-/// A bounding volume hierarchy over all triangles of a scene. The build uses several threads; queries are
-/// thread-safe.
+/// Finds hits of rays on the triangles of a scene, with a bounding volume hierarchy. Both sides of a triangle
+/// are hit, and textures are ignored. Rays pass materials with `casts_shadow` false. A triangle id is the
+/// index of a triangle as in RayHit::triangle. Const functions are thread-safe.
 class RayScene {
 public:
-    /// Copies the required data of `scene`. `threads` build the hierarchy (0: all). Throws `Error` when
-    /// memory runs out.
+    /// Builds the hierarchy with `threads` threads (0: all hardware threads). Copies positions and triangles;
+    /// keeps no reference to `scene`. Throws `Error` if Embree cannot be started or memory runs out.
     explicit RayScene(const Scene& scene, int threads = 0);
     RayScene(RayScene&&) noexcept;
     ~RayScene();
 
-    /// Returns the nearest hit along the ray; empty without a hit. For a pair of opposite triangles it
-    /// is a hit of the one that faces the ray.
+    /// Returns the nearest hit along `ray`, or no value if the ray hits nothing. If a mesh contains a surface
+    /// as two opposite triangles, the hit is on the triangle whose front faces the origin of the ray.
     std::optional<RayHit> nearest(const Ray& ray) const;
-    /// Returns the nearest hit of a triangle for which `accepts` returns true; empty without a hit.
+    /// Returns the nearest hit on an accepted triangle, or no value without such a hit. The ray passes all
+    /// other triangles. `accepts` gets a triangle id and returns true to accept it; it is called during the
+    /// query, on the calling thread. If a mesh contains a surface as two opposite triangles, the hit may be
+    /// on the back of one of them.
     std::optional<RayHit> nearest(const Ray& ray,
                                   const std::function<bool(unsigned triangle)>& accepts) const;
-    /// Returns whether the ray hits any triangle.
+    /// Returns whether `ray` hits any triangle.
     bool occluded(const Ray& ray) const;
 
-    /// Pairs of opposite triangles. Code that reads hits from `handle()` must apply them.
+    /// Returns the pairs of triangles that have the same corners in opposite order. A direct query of
+    /// `handle()` may report a hit on the back of one triangle of a pair. The caller must then replace the
+    /// hit by a hit on the front of the other triangle (OppositeTriangles::shown, an internal function). The
+    /// function `nearest(ray)` does so itself.
     const OppositeTriangles& opposites() const { return *opposites_; }
 
-    /// Embree's RTCScene, for packets of rays.
+    /// Returns the RTCScene of Embree, for queries of several rays at once. This object owns it.
     RTCSceneTy* handle() const { return scene_.get(); }
 
-    /// Returns the distance by which a ray's origin must be moved off the surface at `position` so that the
-    /// surface does not block the ray: 2^-24 (12 c + 16 l). Here c is the largest coordinate of `position`,
-    /// and l is the largest distance on one axis to a corner of any triangle that contains `position`
-    /// (docs/math.md, section 2).
+    /// Returns the distance in metres by which a ray's origin must be moved off the surface at `position` so
+    /// that the surface does not block the ray: 2^-24 (12 c + 16 l). Here c is the largest magnitude of a
+    /// coordinate of `position`, and l is the largest distance on one axis from `position` to a corner of any
+    /// triangle that contains `position` (docs/math.md, section 2).
     float surface_offset(const glm::vec3& position) const;
-    /// Returns the first term of `surface_offset`: 2^-24 · 12 c, with c the largest coordinate of `position`.
+    /// Returns the part of `surface_offset` that does not depend on triangles, in metres: 2^-24 · 12 c, with
+    /// c the largest magnitude of a coordinate of `position`.
     static float coordinate_offset(const glm::vec3& position);
 
-    /// Returns a quick upper bound of `surface_offset` for all points of triangle `id`, considering no other
-    /// triangle, for a ray of length `distance` that ends there.
+    /// Returns an upper bound, in metres, of the `surface_offset` at all points of triangle `id`. Ignores all
+    /// other triangles and is therefore fast. `distance`: length in metres of a ray that ends on the
+    /// triangle, which increases the bound; 0 for a ray that starts there.
     float triangle_offset(unsigned id, float distance = 0) const;
 
-    /// Writes the triangles whose bounding boxes are within `distance` of `position` to `ids`.
+    /// Replaces the contents of `ids` by the ids of all triangles whose bounding boxes are within `distance`
+    /// metres of `position`. `ids` may contain a few more triangles, which are farther away.
     void triangles_near(const glm::vec3& position, float distance, std::vector<unsigned>& ids) const;
 
-    /// Returns the origin of the rays of receivers[index]: its position, moved off the surface by
-    /// Receivers::starts. If this point is on another surface, for example on a wall in the middle of a
-    /// floor, it is moved to the front of that surface.
+    /// Returns the origin of the rays of receiver `index` in metres: the position of the receiver plus
+    /// `surface_offset` times Receivers::starts (or times the normal if `starts` is empty). If this point is
+    /// on another surface, for example on a wall that rises from a floor, the origin is in front of that
+    /// surface.
     glm::vec3 ray_origin(const Receivers& receivers, std::uint32_t index) const;
 
+    /// Location of a triangle in a scene.
     struct Triangle {
-        std::uint32_t primitive, triangle; ///< indices into Scene::primitives and its triangles
+        std::uint32_t primitive, ///< index into Scene::primitives
+            triangle;            ///< index into Primitive::triangles of this primitive
     };
-    /// Returns the primitive of triangle `id` and its index there.
+    /// Returns the location in the scene of the triangle with the id `id`.
     Triangle triangle(unsigned id) const { return triangles_[id]; }
 
 private:

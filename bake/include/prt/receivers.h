@@ -1,5 +1,7 @@
 #pragma once
 
+// Receivers: the points for which the baker computes transfer.
+
 #include "prt/scene.h"
 #include "prt/transfer.h"
 
@@ -10,29 +12,32 @@
 
 namespace prt {
 
-/// Points where transfer is computed: vertices, samples of a surface, texels or probes. The baker does not
-/// distinguish them. Arrays are parallel.
+/// Points for which the baker computes transfer: vertices, samples of a surface, texels or probes. Every
+/// array has one entry per receiver, at the index of the receiver.
 struct Receivers {
-    std::vector<glm::vec3> positions; ///< metres
-    std::vector<glm::vec3> normals;   ///< unit; zero: no surface here, the transfer is zero
-    std::vector<float> areas;         ///< m²; 1 for probes; zero: the transfer is zero
-    /// Ray origins relative to the positions, in units of RayScene::surface_offset; empty: the normals. They
-    /// are needed for vertices, whose normals may point below their faces.
+    std::vector<glm::vec3> positions; ///< [receivers] metres, relative to Scene::origin
+    std::vector<glm::vec3> normals;   ///< [receivers] unit; zero: not on a surface, the transfer is zero
+    std::vector<float> areas;         ///< [receivers] m², 1 for probes; 0: the transfer is zero
+    /// [receivers] ray origin minus position, in units of RayScene::surface_offset; empty: `normals` are used
+    /// instead. Vertices need this array, because their normals may point below an adjacent triangle.
     std::vector<glm::vec3> starts = {};
 
     std::size_t size() const { return positions.size(); }
-    /// Appends receiver `index` of `from`. `starts` must be empty in both or in neither.
+    /// Appends a copy of receiver `index` of `from`. `starts` must be empty in both lists or filled in both;
+    /// the first receiver may be appended to an empty list in any case.
     void append(const Receivers& from, std::size_t index);
 };
 
-/// Returns all vertices of the scene as receivers, in the order of its vertex arrays. The area of a vertex is
-/// a third of the area of its triangles.
+/// Returns all vertices of the scene as receivers, in the order of Scene::vertex_arrays. The area of a vertex
+/// is a third of the area of all triangles at this vertex.
 Receivers vertex_receivers(const Scene& scene);
 
-/// Returns the indices of receivers that have an area and a normal.
+/// Returns the indices of receivers with an area greater than 0 and a normal that is not zero, in ascending
+/// order. All other receivers have zero transfer.
 std::vector<std::uint32_t> receivers_on_surfaces(const Receivers& receivers);
 
-/// Returns the direct transfer of all vertices without shadows: the cosine lobe of each normal.
+/// Returns the direct transfer of all vertices as if nothing cast shadows: the clamped-cosine lobe of each
+/// normal with `order` bands, one term with one channel. It is zero for vertices with a zero normal.
 Transfer unshadowed_transfer(const Scene& scene, int order);
 
 } // namespace prt

@@ -1,6 +1,7 @@
 #pragma once
 
-// Refines meshes where the light requires it. Experimental.
+// Refinement: chooses triangles that must be split so that interpolation between vertices shows the direct
+// light. Experimental.
 
 #include "prt/bake.h"
 #include "prt/refinement.h"
@@ -11,45 +12,52 @@ namespace prt {
 
 /// Settings of the refinement.
 struct RefineOptions {
-    /// Target for the interpolation error of direct light over the surface, relative L2.
+    /// Target for the interpolation error of direct light: relative L2 over the whole surface, weighted by
+    /// area. Finite and greater than 0.
     double target = 0.02;
-    /// Maximum number of vertices of the finer scene; 0: four times the number in the scene, but at least
-    /// 20000.
+    /// Maximum number of vertices of the refined scene. 0: four times the number of vertices of the original
+    /// scene, or 20 000 if that is larger.
     std::size_t max_vertices = 0;
 };
 
 /// Reason why a refinement ended.
 enum class RefineEnd {
-    target,   ///< the target is reached
-    vertices, ///< the maximum number of vertices is reached
-    edges,    ///< the remaining error is in triangles with edges that are too short to split
+    target,   ///< the error is at most RefineOptions::target
+    vertices, ///< another split would exceed the maximum number of vertices
+    edges,    ///< all triangles with an error have edges that are too short to split
 };
 
 /// Measurements of a refinement.
 struct RefineStatistics {
-    RefineEnd end = RefineEnd::target;
-    int rounds = 0; ///< rounds of splitting
+    RefineEnd end = RefineEnd::target; ///< reason why the refinement ended
+    int rounds = 0; ///< number of rounds, each of which splits some triangles; 0: nothing was split
+    /// Size of a scene, and its error.
     struct Size {
-        std::size_t vertices = 0, triangles = 0;
-        double error = 0; ///< interpolation error over the surface, relative L2
+        std::size_t vertices = 0, ///< number of vertices of the scene
+            triangles = 0;        ///< number of triangles of the scene
+        double error = 0;         ///< interpolation error of direct light, relative L2 over the whole surface
     };
-    Size before, after;
-    int rays_per_point = 0;
-    std::size_t points = 0, rays = 0; ///< all test points, and all traced rays
-    double seconds = 0;
+    Size before,            ///< original scene
+        after;              ///< refined scene
+    int rays_per_point = 0; ///< number of rays that were traced for each test point
+    std::size_t points = 0, ///< number of all test points on triangles
+        rays = 0;           ///< number of all traced rays
+    double seconds = 0;     ///< duration of `refine`
 };
 
 /// Result of `refine`.
 struct RefineResult {
-    Refinement refinement;
-    RefineStatistics statistics;
+    Refinement refinement; ///< added vertices and new triangles; pass it to `refined` (prt/refinement.h)
+    RefineStatistics statistics; ///< errors before and after, sizes, and the reason for the end
 };
 
-/// Chooses triangles of `scene` to split. Direct light is fitted to vertices, interpolated over triangles,
-/// and compared with light at test points between the vertices, which is traced with separate rays. Traced
-/// light is kept between rounds, which takes about 2.4 kB per vertex at order 6. `options` are those of the
-/// bake that follows. Deterministic in the same way as `bake`. Throws `Error` for options that are invalid or
-/// not supported by refinement, and `Cancelled` after a stop request.
+/// Chooses triangles of `scene` to split, and returns the refinement; `scene` is not changed. Measures the
+/// error of direct light that is fitted to vertices and interpolated, against rays at test points on the
+/// triangles. Splits triangles with the largest errors until a condition of `RefineEnd` is met. `options` are
+/// those of the bake that follows. On the CPU the result is deterministic and does not depend on the number
+/// of threads. Needs about 2.4 kB of memory per vertex of the refined scene at order 6. Throws `Error` for
+/// invalid options, and if `options` have BakeMethod::raster, FitMode::vertex or a `target_error`. Throws
+/// `Cancelled` after a stop request.
 RefineResult refine(const Scene& scene, const BakeOptions& options, const RefineOptions& how,
                     const Progress& progress = {});
 

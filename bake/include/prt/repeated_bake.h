@@ -1,6 +1,7 @@
 #pragma once
 
-// Repeats a bake with another seed. The difference of both is the noise of rays. Experimental.
+// Repeats a bake with another seed. The difference between the two results is the noise of their rays.
+// Experimental.
 
 #include "prt/baked_transfer.h"
 #include "prt/lightmap.h"
@@ -9,14 +10,19 @@
 
 namespace prt {
 
-/// Bakes `scene` again with the options of `record`, but with other rays and without lamps. Throws `Error` if
-/// the result differs from `baked` by more than noise, because an option that the record does not contain was
-/// then different.
+/// Bakes `scene` again with the options in `record` and another seed, and returns the terms of distant light:
+/// [vertices], without terms of lamps. `baked` and `record` are the results of the first bake. `threads`:
+/// number of threads; 0: all. Throws `Error` if `baked` has no term of distant light, or if the result
+/// differs from `baked` by more than noise: an option that the record does not contain was then different.
+/// Also throws the errors of `bake`, and `Cancelled` after a stop request.
 Transfer repeated_bake(const Scene& scene, const Transfer& baked, const BakeRecord& record, int threads,
                        const Progress& progress = {});
 
-/// Bakes `lightmap` again with other rays, without a finer model. Returns the transfer of its receivers in
-/// their order. Throws `Error` if the result differs by more than noise.
+/// Bakes the texels of `lightmap` again with the options in its record and another seed, and returns the
+/// terms of distant light: [receivers of `lightmap`], without terms of lamps. Texels take their light from
+/// `scene` itself, not from a high-poly model. `threads`: number of threads; 0: all. Throws `Error` if the
+/// lightmap has no term of distant light, or if the result differs from it by more than noise. Also throws
+/// the errors of `bake_lightmap`, and `Cancelled` after a stop request.
 Transfer repeated_lightmap(const Scene& scene, const BakedLightmap& lightmap, int threads,
                            const Progress& progress = {});
 

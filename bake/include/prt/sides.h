@@ -1,6 +1,7 @@
 #pragma once
 
-// Double-sided surfaces that are lit on both sides. Experimental.
+// Finds double-sided surfaces whose back sides need separate vertices, because light reaches them.
+// Experimental.
 
 #include "prt/bake.h"
 
@@ -9,12 +10,14 @@
 
 namespace prt {
 
-/// Marks the triangles of double-sided materials whose backs need separate vertices, because light reaches
-/// them: [triangles of the scene], or empty if no triangle does. Light that arrives from below the horizon
-/// without hitting a surface does not count, because cameras rarely look from there. Blended surfaces, glass,
-/// thin sheets that transmit light, and solids with a medium inside are excluded. `options` are those of the
-/// bake that follows; `with_separate_sides` (prt/separate_sides.h) creates the file. Deterministic. Throws
-/// `Error` for invalid options, and `Cancelled` after a stop request.
+/// Returns for each triangle whether its back side needs separate vertices, because light of the sky or of a
+/// lamp reaches the back: [triangles of the scene], in the order of Scene::primitives. Empty if no triangle
+/// needs them. Only triangles of double-sided materials are marked, except blended surfaces, glass, thin
+/// sheets that transmit light, and solids with a medium inside. Sky light from below the horizon counts only
+/// after a reflection, because cameras rarely look from there. `options` are those of the bake that follows.
+/// Pass the result to `with_separate_sides` (prt/separate_sides.h), which creates the vertices. Uses random
+/// paths with the seed of `options`; the result does not depend on the number of threads. Throws `Error` for
+/// invalid options and unreadable textures, and `Cancelled` after a stop request.
 std::vector<bool> sides_to_separate(const Scene& scene, const BakeOptions& options,
                                     const std::stop_token& stop = {});
 

@@ -1,6 +1,7 @@
 #pragma once
 
-// Direct light of suns with sharp shadows, which a renderer with shadow maps adds to the light of transfer.
+// Direct light of suns with sharp shadows at vertices, like the light that a renderer with shadow maps adds
+// to the light of transfer.
 
 #include "prt/sun.h"
 #include "prt/support/progress.h"
@@ -16,16 +17,18 @@ namespace prt {
 
 /// Settings of `sun_radiance`.
 struct SunRays {
-    int rays = 256; ///< number of rays per receiver and sun, spread over the sun's disc; a sun without extent
-                    ///< gets one ray
-    std::uint64_t seed = 0;
-    int threads = 0; ///< number of threads; 0: all
+    int rays = 256; ///< number of rays per receiver and sun, spread over the disc of the sun; a sun with half
+                    ///< angle 0 gets one ray
+    std::uint64_t seed = 0; ///< seed of the rotation of the rays about the center of a sun's disc
+    int threads = 0;        ///< number of threads; 0: all
 };
 
-/// Computes the exit radiance for albedo 1 of every vertex of `scene` under `suns`, with shadows by rays and
-/// without bounces: [receivers]. It is meant to be added to light of the `direct` term, and thin sheets
-/// transmit light as in that term. Surfaces that are `solid` in `scene` get zero, because their light comes
-/// from the medium inside. Throws `Cancelled` after a stop request.
+/// Returns the exit radiance for albedo 1 of every vertex of `scene` under direct light of `suns`, with
+/// shadows and without bounces: [vertices], in the order of Scene::vertex_arrays, linear Rec. 709. The caller
+/// adds it to the light of the `direct` term under the sky without these suns. Includes light that thin
+/// sheets transmit from their back sides, like that term. Zero for vertices on surfaces whose material is
+/// `solid` in `scene` (TraceSceneOptions::solid), because a medium inside spreads their light. Throws
+/// `Cancelled` after a stop request.
 std::vector<glm::vec3> sun_radiance(const TraceScene& scene, std::span<const Sun> suns,
                                     const SunRays& options = {}, const Progress& progress = {});
 

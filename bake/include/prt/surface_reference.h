@@ -1,6 +1,7 @@
 #pragma once
 
-// Measures the error of a bake against the light between its vertices. Experimental.
+// Measures the error of direct transfer at vertices, against rays at points between the vertices.
+// Experimental.
 
 #include "prt/support/progress.h"
 #include "prt/surface_points.h"
@@ -13,27 +14,31 @@ namespace prt {
 
 /// Settings of `SurfaceReference`.
 struct SurfaceReferenceOptions {
-    int order = 6;
-    std::size_t points = 2048; ///< approximate number of points, spread by area
-    int rays = 16384;          ///< rays per point
-    std::uint64_t seed = 0x2545f4914f6cdd1d;
+    int order = 6;                           ///< order of the transfer that is measured
+    std::size_t points = 2048;               ///< approximate number of points, spread evenly by area
+    int rays = 16384;                        ///< number of rays per point
+    std::uint64_t seed = 0x2545f4914f6cdd1d; ///< seed of points and rays; must differ from that of the bake
 };
 
-/// Direct transfer at points that are spread over all surfaces of a scene, traced with separate rays. Points
-/// inside geometry are excluded.
+/// Direct transfer at points that are spread evenly by area over all surfaces of a scene, traced with rays
+/// that are independent of a bake. Points inside geometry are excluded.
 class SurfaceReference {
 public:
+    /// Chooses the points and traces their transfer on the CPU. Keeps no reference to `scene`. Throws
+    /// `Cancelled` after a stop request.
     SurfaceReference(const TraceScene& scene, const SurfaceReferenceOptions& options,
                      const Progress& progress = {});
 
-    /// Returns the relative L2 error of `direct`, transfer of the scene's receivers with one channel,
-    /// interpolated to the points.
+    /// Returns the relative L2 error of `direct` at the points, weighted by area, after interpolation between
+    /// vertices; 0 if no light reaches any point. `direct` is the direct transfer of the scene's receivers:
+    /// one term with one channel, of order SurfaceReferenceOptions::order.
     double relative_l2(const Transfer& direct) const;
+    /// Returns the number of points after those inside geometry were excluded.
     std::size_t points() const { return points_.size(); }
 
 private:
     SurfacePoints points_;
-    Transfer light_; ///< [points]
+    Transfer light_; ///< transfer of the points: [points][order²]
 };
 
 } // namespace prt

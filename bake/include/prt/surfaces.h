@@ -16,69 +16,87 @@ namespace prt {
 
 /// A point on a triangle, with the area over which its textures are filtered.
 struct SurfacePoint {
-    std::uint32_t triangle; ///< index in the order of the scene's primitives and their triangles
-    glm::vec2 uv;           ///< barycentric coordinates of corners 1 and 2
-    float footprint;        ///< area over which textures are filtered, m²
+    std::uint32_t triangle; ///< index among the triangles of all primitives, in the order of
+                            ///< Scene::primitives
+    glm::vec2 uv;           ///< barycentric coordinates for corners 1 and 2, 0..1
+    float footprint;        ///< area of the surface over which textures are filtered, m²; 0: finest level
 };
 
-/// Lambertian scattering of a surface, linear Rec. 709: the fraction of the irradiance on one side that
-/// leaves on the same side (`reflected`), and the fraction that leaves on the other side (`transmitted`).
+/// Lambertian scattering of a surface, linear Rec. 709.
 struct Scattering {
-    glm::vec3 reflected, transmitted;
+    glm::vec3 reflected, ///< fraction of the irradiance on one side that leaves from the same side, 0..1
+        transmitted;     ///< fraction of the irradiance on one side that leaves from the other side, 0..1
 };
 
-/// Properties of a scene; each is true if at least one surface has it.
+/// Properties of a scene. Each member is true if at least one surface of the scene has the property.
 struct SurfaceTraits {
-    bool alpha = false;        ///< lets rays pass: cut out, blended, or glass
-    bool textured = false;     ///< has a texture to filter
-    bool transmission = false; ///< transmits diffuse light
-    bool color = false;        ///< reflects or transmits red, green and blue differently
-    bool scattering = false;   ///< reflects or transmits at all
+    bool alpha = false;        ///< the surface lets rays pass: it is cut out, blended, or glass
+    bool textured = false;     ///< scattering varies over the surface by textures or vertex colors, or the
+                               ///< surface lets rays pass
+    bool transmission = false; ///< the surface transmits diffuse light as a thin sheet
+    bool color = false;        ///< the surface reflects or transmits red, green and blue differently
+    bool scattering = false;   ///< the surface reflects or transmits any diffuse light
 };
 
+/// Optical properties of all triangles of a scene. Immutable, therefore thread-safe. A parameter `triangle`
+/// is an index as in SurfacePoint::triangle.
 class Surfaces {
 public:
-    /// Keeps references to `scene` and `textures` (load_textures(scene), or empty to ignore textures).
-    /// `solid` [materials]: materials with a medium inside, which are not thin sheets; empty: none.
+    /// Keeps references to `scene` and `textures`. `textures`: load_textures(scene), or empty to ignore all
+    /// textures. `solid` [materials]: true for a material with a medium inside, which is then not a thin
+    /// sheet; empty: false for all.
     Surfaces(const Scene& scene, const std::vector<Texture>& textures, const std::vector<bool>& solid = {});
 
     const Scene& scene() const { return scene_; }
+    /// Returns the number of triangles of all primitives.
     std::size_t triangles() const { return triangles_.size(); }
-    /// Returns the receivers (vertices) at the corners of the triangle.
+    /// Returns the vertices at corners 0, 1 and 2 of the triangle, as indices of the scene's receivers.
     const glm::uvec3& corners(std::uint32_t triangle) const { return triangles_[triangle].corners; }
+    /// Returns the index of the triangle's primitive in Scene::primitives.
     std::size_t primitive(std::uint32_t triangle) const { return triangles_[triangle].primitive; }
+    /// Returns the material of the triangle's primitive.
     const Material& material(std::uint32_t triangle) const {
         return scene_.materials[scene_.primitives[triangles_[triangle].primitive].material];
     }
 
+    /// Returns the properties of the whole scene.
     const SurfaceTraits& traits() const { return traits_; }
-    /// Returns whether all texels of the texture are grey; true if there is no texture.
+    /// Returns whether all texels of the texture of `use` have equal red, green and blue. True if the texture
+    /// does not exist or is not loaded.
     bool is_grey(const TextureUse& use) const;
-    /// Returns whether the triangle emits light; false if the texture of its emission is missing.
+    /// Returns whether the material of the triangle emits light. False if its emission has a texture that
+    /// could not be loaded.
     bool emits(std::uint32_t triangle) const;
 
-    /// Returns whether the texture is loaded and `vertices` have coordinates for it.
+    /// Returns whether the texture of `use` is loaded and `vertices` have the UV set that it needs.
     bool has_texture(const VertexArray& vertices, const TextureUse& use) const;
-    /// Returns whether no ray passes the surface.
+    /// Returns whether the triangle stops all rays: `coverage` is 1 at all its points.
     bool opaque(std::uint32_t triangle) const { return kinds_[triangles_[triangle].primitive].opaque; }
-    /// Returns whether both sides of the surface scatter light.
+    /// Returns whether both sides of the triangle scatter light: its material is double-sided, or it is a
+    /// thin sheet. If false, the back of the triangle is black.
     bool two_sided(std::uint32_t triangle) const { return kinds_[triangles_[triangle].primitive].two_sided; }
-    /// Returns whether the surface transmits diffuse light as a thin sheet.
+    /// Returns whether the triangle transmits diffuse light as a thin sheet; false for solids.
     bool transmits(std::uint32_t triangle) const { return kinds_[triangles_[triangle].primitive].thin; }
-    /// Returns whether there is a medium inside, through which all light that leaves the surface has passed.
+    /// Returns whether the material of the triangle has a medium inside (`solid` of the constructor). All
+    /// light that leaves such a surface has passed the medium.
     bool solid(std::uint32_t triangle) const { return kinds_[triangles_[triangle].primitive].solid; }
-    /// Returns the share of a ray that the surface stops: 1 if it is opaque, 0 if it is cut out, alpha if it
-    /// is blended; this is multiplied by the share that glass does not transmit. Cut-outs use the finest
-    /// level of the texture, because many rays average it.
+    /// Returns the fraction of a ray that the surface stops at `point`, 0..1; the rest passes straight on.
+    /// The value is c (1 - g): c is 1 for opaque materials, 0 or 1 for cut-outs, and alpha for blended
+    /// materials; g is the transmittance of glass, and 0 for all other materials. Cut-outs ignore the
+    /// footprint, because many rays average the texture.
     float coverage(const SurfacePoint& point) const;
-    /// Returns the scattering at a point.
+    /// Returns the diffuse scattering of the part of the surface that stops rays, at `point`.
     Scattering scattering(const SurfacePoint& point) const;
-    /// Returns the scattering of all points of the triangle; no value if it varies.
+    /// Returns the scattering that all points of the triangle share; no value if textures or vertex colors
+    /// vary it.
     std::optional<Scattering> constant_scattering(std::uint32_t triangle) const {
         return kinds_[triangles_[triangle].primitive].constant;
     }
-    /// Returns the radiance that the surface emits.
+    /// Returns the radiance that the surface emits at `point`, linear Rec. 709. It applies to the front, and
+    /// to the back if the material is double-sided; the caller checks the side.
     glm::vec3 emission(const SurfacePoint& point) const;
+    /// Returns the base color at `point`, linear Rec. 709: factor times texture times vertex color, without
+    /// alpha.
     glm::vec3 base_color(const SurfacePoint& point) const { return glm::vec3(base_color(point, false)); }
 
 private:
@@ -88,7 +106,7 @@ private:
     };
     struct Kind {
         bool opaque = true, two_sided = false, thin = false, solid = false;
-        std::optional<Scattering> constant; ///< set if neither textures nor vertex colors vary it
+        std::optional<Scattering> constant; ///< no value if textures or vertex colors vary the scattering
     };
     Kind kind_of(const Primitive& primitive, bool solid) const;
     glm::vec4 texel(const SurfacePoint& point, const TextureUse& use, bool finest) const;

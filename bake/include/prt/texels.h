@@ -1,6 +1,6 @@
 #pragma once
 
-// Textures over the surfaces of a scene, whose texels are receivers. Experimental.
+// Plans lightmaps: textures over the surfaces of a scene, whose texels are receivers. Experimental.
 
 #include "prt/lightmap.h"
 #include "prt/scene.h"
@@ -10,40 +10,45 @@
 
 namespace prt {
 
-/// Assignment of surfaces to textures.
+/// Assignment of surfaces to textures. An object is a node of the glTF file.
 enum class AtlasMode {
-    automatic, ///< all surfaces if their charts do not overlap, otherwise one texture per object
-    one,       ///< one texture for all surfaces
-    each,      ///< one texture per object, that is, per node of the file
+    automatic, ///< one texture for all surfaces if their charts do not overlap, otherwise one texture per
+               ///< object; `unwrap` always creates one texture
+    one,       ///< one texture for all surfaces; an error if charts overlap
+    each,      ///< one texture per object; an error if charts of one object overlap
 };
 
-/// Settings of textures.
+/// Settings for the size of textures, and for the surfaces that share one.
 struct TexelOptions {
-    int size = 0;         ///< texels per side; 0: from `per_metre`
-    double per_metre = 0; ///< mean number of texels per metre
-    int uv_set = 1;       ///< TEXCOORD_n
-    AtlasMode atlases = AtlasMode::automatic;
+    int size = 0;         ///< texels per side of every texture, 1..kMaxTexels; 0: `per_metre` determines it
+    double per_metre = 0; ///< texels per metre along an axis, on average over a texture; used and greater
+                          ///< than 0 if `size` is 0
+    int uv_set = 1;       ///< n of the existing UV set TEXCOORD_n; `unwrap` ignores it
+    AtlasMode atlases = AtlasMode::automatic; ///< surfaces that share a texture
 };
 
-inline constexpr int kMaxTexels = 8192; ///< maximum number of texels per side
+inline constexpr int kMaxTexels = 8192; ///< maximum number of texels per side of a texture
 
-/// A texture over some primitives.
+/// A texture that some primitives share.
 struct Atlas {
-    std::vector<std::size_t> primitives; ///< indices into Scene::primitives
-    int uv_set = 1;
-    int width = 0, height = 0;
-    bool repeats = false; ///< some coordinates are outside 0..1, where the texture repeats
+    std::vector<std::size_t> primitives; ///< indices into Scene::primitives, ascending
+    int uv_set = 1;                      ///< n of the UV set TEXCOORD_n of these primitives
+    int width = 0,                       ///< number of texels along u
+        height = 0;                      ///< number of texels along v
+    bool repeats = false; ///< true: some triangles have UVs outside 0..1, where the texture repeats
 
     std::size_t texels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
 };
 
-/// Returns the size of the atlas as a lightmap layout stores it.
+/// Returns the size of `atlas` in the form that LightmapLayout::maps stores.
 inline LightmapSize size_of(const Atlas& atlas) {
     return {atlas.width, atlas.height, atlas.repeats};
 }
 
-/// Returns the textures for all surfaces of `scene`. Throws `Error` if texture coordinates are missing or
-/// cross a border, if charts of one texture overlap, and if a texture would be too large.
+/// Returns square textures that together contain every primitive of `scene` once, with their existing UV set.
+/// Throws `Error` for options out of range, for primitives without this UV set, if the UVs of a triangle
+/// cross the border of the texture, if charts overlap (see `AtlasMode`), and if `per_metre` needs more than
+/// kMaxTexels per side.
 std::vector<Atlas> plan_atlases(const Scene& scene, const TexelOptions& options);
 
 } // namespace prt

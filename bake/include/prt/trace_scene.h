@@ -1,5 +1,7 @@
 #pragma once
 
+// A scene with all data that tracers of light need.
+
 #include "prt/ray_scene.h"
 #include "prt/surfaces.h"
 
@@ -11,16 +13,17 @@ namespace prt {
 
 /// Settings of `TraceScene`.
 struct TraceSceneOptions {
-    /// [materials] whether the material has a medium inside and is not a thin sheet; empty: false for all.
+    /// [materials] true: the material has a medium inside and is not a thin sheet; empty: false for all.
     std::vector<bool> solid = {};
-    int threads = 0; ///< number of threads for building and tracing; 0: all
+    int threads = 0; ///< number of threads that build the hierarchy and that tracers use; 0: all
 };
 
-/// A scene with all data for tracing light: its textures, its surfaces, and a hierarchy of its triangles. It
-/// owns the data and cannot be moved, because tracers keep references to it. Thread-safe.
+/// A scene with the data for tracing light: textures, optical properties of surfaces, and a hierarchy of the
+/// triangles. Owns all data except the `Scene`. Cannot be copied or moved, because tracers keep references to
+/// it. Const functions are thread-safe.
 class TraceScene {
 public:
-    /// Keeps a reference to `scene`. `textures`: load_textures(scene), or empty to ignore textures.
+    /// Keeps a reference to `scene`. `textures`: load_textures(scene), or empty to ignore all textures.
     explicit TraceScene(const Scene& scene, std::vector<Texture> textures = {},
                         const TraceSceneOptions& options = {})
         : scene_(scene), textures_(std::move(textures)), surfaces_(scene, textures_, options.solid),
@@ -29,10 +32,13 @@ public:
     TraceScene& operator=(const TraceScene&) = delete;
 
     const Scene& scene() const { return scene_; }
+    /// Returns the textures of the constructor: [images of the scene], or empty.
     const std::vector<Texture>& textures() const { return textures_; }
     const Surfaces& surfaces() const { return surfaces_; }
+    /// Returns TraceSceneOptions::threads; 0: all.
     int threads() const { return threads_; }
-    /// Returns the hierarchy of triangles, which the first call builds. Throws `Error` if memory runs out.
+    /// Returns the hierarchy of triangles. The first call builds the hierarchy, and then throws `Error` if
+    /// memory runs out.
     const RayScene& rays() const {
         std::call_once(built_, [this] { rays_.emplace(scene_, threads_); });
         return *rays_;

@@ -1,5 +1,7 @@
 #pragma once
 
+// Interface of the methods that compute direct transfer: ray tracing on a CPU or a GPU, and depth maps.
+
 #include "prt/baked_transfer.h"
 #include "prt/receivers.h"
 #include "prt/support/progress.h"
@@ -18,75 +20,91 @@ class VectorSums;
 struct LampLight;
 struct LampTask;
 
-/// Rays of one call of `Tracer::trace`. The rays of a receiver form a sequence that depends only on the seed:
-/// tracing [0, 64) and then [64, 128) is the same as tracing [0, 128).
+/// Rays of one call of `Tracer::trace`. The rays of a receiver are a part of a fixed sequence, which depends
+/// only on the index of the receiver and on `seed`. Tracing rays 0..63 and then rays 64..127 therefore uses
+/// the same rays as tracing 0..127.
 struct TraceOptions {
-    int order = 6;
-    int rays = 1024; ///< rays per receiver
-    std::uint64_t seed = 0;
-    /// First ray in the sequence; a multiple of the smallest power of two that is at least `rays` or
-    /// kRayChunk.
+    int order = 6;          ///< order of the transfer
+    int rays = 1024;        ///< number of rays per receiver; for BakeMethod::raster the number of directions
+    std::uint64_t seed = 0; ///< seed of the sequence of rays
+    /// Index of the first ray in the sequence: a multiple of the smallest power of two that is at least
+    /// `rays`, or a multiple of 1024 if `rays` is larger than 1024.
     std::uint32_t first_ray = 0;
-    /// One of `hit_stride` rays is traced to its hit and represents the others, because light from surfaces
-    /// varies less over directions than visibility does. In scenes with alpha every ray is traced to its hit.
+    /// For calls with a sink: one of `hit_stride` rays is traced to its nearest hit, and the sink gets this
+    /// hit. All other rays only test whether they are blocked; the weights of the hits represent them. 1: all
+    /// rays are traced to their hits, as always in scenes with cut-out, blended or glass surfaces.
     int hit_stride = 1;
 };
 
-/// A surface that a ray hit.
+/// Hit of a ray of a receiver on a surface.
 struct Hit {
-    std::uint32_t triangle; ///< index in the order of the scene's primitives and their triangles
-    float u, v;             ///< barycentric coordinates of corners 1 and 2
-    float weight; ///< number of rays that the hit represents; the sum over all hits is the number of blocked
-                  ///< rays
-    float footprint; ///< area of the surface that a ray represents, m²; 0 if no texture needs it
-    bool back;       ///< the triangle was hit from behind
+    std::uint32_t triangle; ///< index among the triangles of all primitives, in the order of
+                            ///< Scene::primitives
+    float u, v;             ///< barycentric coordinates of the hit for corners 1 and 2, 0..1
+    /// Number of rays that the hit represents; fractional for surfaces that stop a share of a ray. The sum
+    /// over all hits of a receiver is its number of blocked rays.
+    float weight;
+    float footprint; ///< area of the surface that the hit represents, m², for filters of textures; 0 if
+                     ///< SurfaceTraits::textured is false
+    bool back;       ///< true: the ray hit the back of the triangle
 };
 
-/// Function that gets the hits of receivers[indices[i]], all hits of one call together. Called from several
-/// threads.
+/// Callback that gets all hits of the receiver with index indices[i], for a call of `Tracer::trace` with
+/// `indices`. It is called once per receiver, from several threads at the same time; `hits` is valid only
+/// during the call. If a GPU fails and the CPU repeats its work, the callback may get a receiver twice.
 using HitSink = std::function<void(std::size_t i, std::span<const Hit> hits)>;
 
-/// Wall-clock time of each stage in seconds. Stages that a tracer cannot separate are in `trace`.
+/// Wall-clock time of the stages of tracing, in seconds. If a tracer cannot measure stages separately, their
+/// time is included in `trace`.
 struct TraceSeconds {
-    double trace = 0;      ///< tracing rays
-    double accumulate = 0; ///< spherical harmonics, and processing of the hits
-    double transfer = 0;   ///< transfers to and from a device
+    double trace = 0;      ///< tracing of rays, or drawing of depth maps
+    double accumulate = 0; ///< summation of spherical harmonics, and calls of the sink
+    double transfer = 0;   ///< copies of data to and from a GPU
 };
 
-/// Interface of the methods that compute visibility, on a CPU or a GPU. All implementations that trace rays
-/// use the same samples, so that their results agree except for grazing rays.
+/// Interface of the methods that compute direct transfer, on a CPU or a GPU. All implementations that trace
+/// rays use the same rays, so that their results differ only by rays that graze an edge. A tracer keeps a
+/// reference to its scene. Calls from several threads at the same time are not allowed.
 class Tracer {
 public:
     virtual ~Tracer() = default;
-    virtual Backend backend() const = 0; ///< never automatic
+    /// Returns the hardware that traces: `cpu` or `gpu`, never `automatic`. The value changes to `cpu` if the
+    /// GPU fails and the CPU continues.
+    virtual Backend backend() const = 0;
+    /// Returns the method that samples visibility.
     virtual BakeMethod method() const { return BakeMethod::trace; }
-    /// Returns whether `trace` supports a sink and ranges of rays.
+    /// Returns whether `trace` supports hits (a sink) and ranges of rays (TraceOptions::first_ray). If false,
+    /// the sink must be empty and `first_ray` 0.
     virtual bool notes_hits() const { return true; }
-    virtual std::string device() const = 0; ///< device name for reports
-    /// Returns the number of receivers to pass to `trace` at once, so that a call takes about a tenth of a
-    /// second.
+    virtual std::string device() const = 0; ///< name of the device, one line for reports
+    /// Returns the recommended number of receivers for one call of `trace`, at least 1. A call then takes
+    /// about a tenth of a second on a CPU, so that the caller can check for stop requests between calls. On a
+    /// GPU a call may take seconds, and checks for stop requests itself.
     virtual std::size_t batch_size(const TraceOptions& options) const = 0;
-    /// Computes shadowed direct transfer (docs/math.md, eq. 9) of receivers[indices[i]] for each i and writes
-    /// it to `vectors` [indices][order²]; `sink` gets the hits of the rays. Tracers with long calls report to
-    /// `progress`.
+    /// Computes the direct transfer with shadows (docs/math.md, eq. 9) of the receivers with the indices
+    /// `indices`, and writes it to `vectors`: [indices][order²], in the order of `indices`. `sink`, if not
+    /// empty, gets the hits of each receiver. Tracers on a GPU report to `progress` and throw `Cancelled`
+    /// after a stop request; the tracer on the CPU ignores `progress`. Throws `Error` if a GPU fails.
     virtual void trace(const Receivers& receivers, std::span<const std::uint32_t> indices,
                        const TraceOptions& options, std::span<float> vectors, const HitSink& sink = {},
                        const Progress& progress = {}) = 0;
-    /// Computes direct light of lamps (bake/trace/lamp_light.h), with the same samples for every tracer.
-    /// Throws `Cancelled` after a stop request.
+    /// Computes direct light of lamps at receivers. For the baker only: the types are in the internal header
+    /// bake/trace/lamp_light.h. All tracers use the same rays. Throws `Cancelled` after a stop request.
     virtual LampLight lamp_light(const LampTask& task, const Progress& progress) = 0;
-    /// Creates the object that computes bounces (bake/trace/gather_product.h) on a device. It keeps a
-    /// reference to `gather`. Returns null if the CPU is as fast.
+    /// Creates an object that computes bounces on the GPU, and keeps a reference to `gather`. For the baker
+    /// only: the types are in the internal header bake/trace/gather_product.h. Returns null if the CPU
+    /// must compute the bounces: always on a CPU, and on a GPU with too little memory.
     virtual std::unique_ptr<GatherProduct> gather_product(const GatherOperator& gather);
-    /// Creates sums of vectors (bake/trace/vector_sums.h) on a device, one for each entry of `weights`, which
-    /// is the total weight of the vectors that are added to it. Returns null if the CPU is as fast or the
-    /// device has too little memory.
+    /// Creates weighted sums of transfer vectors [order²] on the GPU, one sum for each entry of `weights`.
+    /// `weights` [sums]: total weight of the vectors that will be added to the sum. For the baker only: the
+    /// type is in the internal header bake/trace/vector_sums.h. Returns null if the CPU must compute the
+    /// sums: always on a CPU, and on a GPU with too little memory.
     virtual std::unique_ptr<VectorSums> vector_sums(int order, std::span<const float> weights);
-    /// Time of all calls.
+    /// Returns the time of all calls since this tracer was created.
     TraceSeconds seconds() const { return seconds_; }
 
 protected:
-    TraceSeconds seconds_;
+    TraceSeconds seconds_; ///< implementations add the time of each call
 };
 
 } // namespace prt

@@ -11,17 +11,22 @@
 
 namespace prt {
 
-/// New texture coordinates of a scene.
+/// New texture coordinates (UVs) of a scene. Vertices at the borders of charts are split.
 struct Unwrapping {
-    std::vector<VertexSplit> primitives; ///< [scene's primitives]
-    std::vector<Atlas> atlases;          ///< the textures; the caller sets their `uv_set`
-    std::size_t charts = 0;
-    double texels_per_metre = 0; ///< minimum over all textures
+    std::vector<VertexSplit> primitives; ///< [Scene::primitives] new vertices, UVs and triangles
+    /// The textures that the UVs refer to. `uv_set` has its default value: the caller sets it to the UV set
+    /// in which `with_texcoords` (prt/vertex_splits.h) stores the UVs.
+    std::vector<Atlas> atlases;
+    std::size_t charts = 0;      ///< number of charts in all textures
+    double texels_per_metre = 0; ///< number of texels per metre along an axis, minimum over all textures
 };
 
-/// Cuts surfaces into charts whose triangles face mainly along the same axis, so that no chart overlaps
-/// itself, and packs the charts with at least two texels between them. Throws `Error` if a texture is too
-/// small for the charts.
+/// Creates texture coordinates without overlaps, and ignores the existing ones. Cuts surfaces into charts
+/// whose triangles face mainly along the same coordinate axis, projects each chart along this axis, and packs
+/// the charts into square textures, with at least two empty texels next to every side of a chart. `options`:
+/// AtlasMode::automatic means one texture; `uv_set` is ignored; either `size` or `per_metre` must be greater
+/// than 0. With `size`, the charts get the highest resolution that fits. Throws `Error` if a texture of this
+/// size is too small for the charts, or if `per_metre` needs more than kMaxTexels per side.
 Unwrapping unwrap(const Scene& scene, const TexelOptions& options);
 
 } // namespace prt

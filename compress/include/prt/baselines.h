@@ -1,7 +1,7 @@
 #pragma once
 
-// Reference methods from the literature and from other tools, for comparisons with this compressor in
-// reports.
+// Compression methods from the literature and from other tools, with which reports compare the compressor of
+// prt/compress.h.
 
 #include "prt/support/progress.h"
 #include "prt/transfer.h"
@@ -12,35 +12,40 @@
 
 namespace prt {
 
-/// Transfer after coding and decoding by some method, and the size of the code.
+/// Transfer after compression and decompression by one method, and the size of the compressed form.
 struct BaselineResult {
-    Transfer decoded;
-    double payload_bytes = 0;   ///< per receiver, as a game binds it: whole 32-bit words (`bound_bytes`)
-    double table_bytes = 0;     ///< total
-    double mean_components = 0; ///< per receiver; each costs one multiply-add of a color
+    Transfer decoded;           ///< decompressed transfer, with the layout and the receivers of the input
+    double payload_bytes = 0;   ///< bytes per receiver that a game binds as vertex attributes, rounded up to
+                                ///< whole 32-bit words (`bound_bytes`)
+    double table_bytes = 0;     ///< bytes of all data that receivers share: scales, means and directions
+    double mean_components = 0; ///< number of numbers per receiver that the vertex shader multiplies by a
+                                ///< color and adds
 };
 
-/// Returns the size of `bytes` bytes of a receiver as a vertex attribute: rounded up to whole 32-bit words.
+/// Returns the size in bytes of a vertex attribute that holds `bytes` bytes: the next multiple of 4.
 double bound_bytes(std::size_t bytes);
 
-/// Stores the first `bands` bands with one byte per coefficient, relative to the maximum of that coefficient
-/// over all receivers.
+/// Keeps the first `bands` bands of each term and of each channel, and sets the other coefficients to 0. Each
+/// kept coefficient is rounded to one signed byte, in units of its maximum magnitude over all receivers.
+/// Terms of lamps are kept if `bands` is at least 1.
 BaselineResult truncated_sh(const Transfer& transfer, int bands);
 
 /// Settings of `classic_cpca`.
 struct ClassicOptions {
-    int clusters = 1;   ///< number of clusters; 1 cluster with 24 components was the default of D3DX
-    int components = 0; ///< per cluster; 0: vector quantisation only
-    /// True: alternate local PCA and reassignment (Sloan et al. 2003, section 4.2). False: compute PCA once
-    /// in the clusters of vector quantisation.
+    int clusters = 1;   ///< number of clusters; D3DX used 1 cluster with 24 components by default
+    int components = 0; ///< number of components of each cluster; 0: only vector quantisation, each receiver
+                        ///< is replaced by the mean of its cluster
+    /// True: alternate between PCA in each cluster and reassignment of receivers to clusters (Sloan et al.
+    /// 2003, section 4.2). False: compute PCA once, in the clusters of vector quantisation.
     bool iterate = true;
-    std::uint64_t seed = 0;
-    int threads = 0;
+    std::uint64_t seed = 0; ///< seed of the initial clusters
+    int threads = 0;        ///< number of threads; 0: all
 };
 
-/// Compresses by clustered PCA as published: it minimises the squared error of coefficients, with the same
-/// number of components in all clusters. Weights have 8 bits, relative to the maximum of each direction;
-/// means and directions are float16.
+/// Compresses `transfer` by clustered PCA as published, and decompresses it. Minimises the squared error of
+/// coefficients, weighted by `areas` [receivers]. All clusters have the same number of components. Weights
+/// have 8 bits, in units of the maximum magnitude of a weight of the same cluster and direction; means and
+/// directions are float16. Throws `Cancelled` after a stop request.
 BaselineResult classic_cpca(const Transfer& transfer, std::span<const float> areas,
                             const ClassicOptions& options, const Progress& progress = {});
 

@@ -21,103 +21,124 @@
 
 namespace prt {
 
-/// Maximum size of packed weights with their cluster: eight 32-bit words per receiver.
+/// Maximum number of 32-bit words per receiver for the cluster index and packed weights together.
 inline constexpr int kMaxPackedWords = 8;
-/// Maximum number of bits of the packed weights of a receiver: 240, because the cluster takes up to 16 bits
-/// of the words.
+/// Maximum number of bits of all packed weights of a receiver: 240. The remaining 16 bits of the words can
+/// hold the cluster index.
 inline constexpr int kMaxPackedBits = 32 * kMaxPackedWords - 16;
 
-/// Maximum magnitude of a transfer coefficient that can be compressed. Real coefficients are at most about 1,
-/// and a few hundred behind nearly black sheets. Squares of values up to this limit can be summed in floats.
+/// Maximum magnitude of a transfer coefficient that can be compressed. Typical coefficients are below 1;
+/// those of nearly black thin sheets reach a few hundred. The sum of many squares below this limit fits into
+/// a float.
 inline constexpr float kMaxInputTransfer = 1e12f;
 /// Maximum of CompressOptions::seam_weight.
 inline constexpr double kMaxSeamWeight = 1e6;
 
-/// Storage of a receiver's weights.
+/// Storage format of the cluster index and the weights of a receiver.
 struct WeightCoding {
+    /// `packed`: weights of few bits share 32-bit words with the cluster index. `float32`: weights are not
+    /// rounded.
     WeightFormat format = WeightFormat::packed;
-    /// Maximum number of components of a cluster; limited to the dimension of the transfer vectors, and to 16
-    /// for packed weights.
+    /// Maximum number of components of a cluster, at least 0. Also limited by the dimension of the transfer
+    /// vectors, and for packed weights by kMaxPackedComponents and the number of bits.
     int components = 16;
 
     // Packed weights only:
 
-    /// Number of bits for all weights of a receiver, at most kMaxPackedBits. Each cluster distributes them
-    /// over its components by variance.
+    /// Total number of bits of all weights of a receiver, 0..kMaxPackedBits; 0: no components. Each cluster
+    /// distributes the bits over its components to minimise the error. Ignored if `fixed_bits` is not empty.
     int bits = 24;
-    /// Number of bits of each component, 1..16, identical in all clusters; if not empty, replaces `bits`.
+    /// [components] number of bits of each component, 1..16 each, the same in all clusters. The length also
+    /// limits the number of components. Empty: each cluster distributes `bits`.
     std::vector<int> fixed_bits = {};
-    /// Number of bits of the cluster index; 0: the minimum for the number of clusters.
+    /// Number of bits of the cluster index in the words, 1..16; 0: the minimum for the number of clusters.
     int cluster_bits = 0;
 };
 
-/// Returns a coding with one 32-bit word per vertex: 8 bits for the cluster and 24 bits for weights, which
-/// each cluster distributes separately.
+/// Returns a coding with one 32-bit word per receiver: 8 bits for the cluster index, so that at most 256
+/// clusters are allowed, and 24 bits for weights. Each cluster distributes the 24 bits over its components
+/// separately.
 WeightCoding preset_u32();
-/// Returns a coding with two 32-bit words per vertex: 8 bits for the cluster and 56 bits for weights, which
-/// each cluster distributes separately.
+/// Returns a coding with two 32-bit words per receiver: 8 bits for the cluster index, so that at most 256
+/// clusters are allowed, and 56 bits for weights. Each cluster distributes the 56 bits over its components
+/// separately.
 WeightCoding preset_u64();
-/// Returns a coding with one 32-bit word per vertex and the same bit widths in all clusters, for shaders
-/// without a loop: four weights of 7, 6, 6 and 5 bits.
+/// Returns a coding with one 32-bit word per receiver: 8 bits for the cluster index (at most 256 clusters),
+/// and four weights of 7, 6, 6 and 5 bits in every cluster. The vertex shader needs no loop.
 WeightCoding preset_u32x4();
-/// Returns a coding with two 32-bit words per vertex and the same bit widths in all clusters, for shaders
-/// without a loop: nine weights of 9, 8, 7, 7, 6, 6, 5, 4 and 4 bits.
+/// Returns a coding with two 32-bit words per receiver: 8 bits for the cluster index (at most 256 clusters),
+/// and nine weights of 9, 8, 7, 7, 6, 6, 5, 4 and 4 bits in every cluster. The vertex shader needs no loop.
 WeightCoding preset_u64x9();
 
-/// Predictors to use (prt/clustered_bases.h), by the vertex attributes that the renderer has. Each predictor
-/// costs three multiply-adds in the vertex shader, and three rows per cluster.
-enum class PredictorChoice { none, normal, normal_and_position };
+/// Receiver attributes that act as predictors (prt/clustered_bases.h). The renderer must have these vertex
+/// attributes. Each predictor costs three multiply-adds of a color in the vertex shader, and three rows per
+/// cluster. A predictor whose attribute is missing in `ReceiverSurface`, or zero everywhere, is not used.
+enum class PredictorChoice {
+    none,               ///< no predictors
+    normal,             ///< the normal
+    normal_and_position ///< the normal and the position: six multiply-adds and six rows
+};
 
 /// Settings of the compressor.
 struct CompressOptions {
-    int clusters = 256;
-    WeightCoding coding = {};
-    /// Maximum mean number of components per receiver, which is the cost in the vertex shader in addition to
-    /// predictors. Clusters may then have different numbers of components. 0: no limit.
+    int clusters = 256; ///< maximum number of clusters, 1..65536; clusters without receivers are removed
+    WeightCoding coding = {}; ///< storage format of cluster index and weights
+    /// Maximum of the number of components per receiver, averaged over all receivers. Each component costs
+    /// one multiply-add of a color in the vertex shader; predictors are not counted. Clusters then have
+    /// different numbers of components. 0: no limit except WeightCoding::components.
     double mean_components = 0;
-    PredictorChoice predictors = PredictorChoice::normal;
-    /// Squared error that rounding of the bases may add, as a fraction of the squared error without it. 0:
-    /// bases are float32. Without a value: 0.1. Ignored for float weights, whose bases are always float32.
+    PredictorChoice predictors = PredictorChoice::normal; ///< receiver attributes that act as predictors
+    /// Squared error that rounding of the bases may add, as a fraction of the squared error with exact bases:
+    /// at least 0 and less than 1. 0: bases are float32. No value: 0.1. Ignored for WeightFormat::float32,
+    /// whose bases are always float32.
     std::optional<double> basis_share = {};
-    /// For packed weights: include the bytes of the bases in the cost. Clusters then omit directions whose
-    /// bytes reduce the error more if they are spent on other clusters.
+    /// True: also minimise the bytes of the bases. A cluster then omits directions whose bytes would reduce
+    /// the error more in other clusters. False: bases cost nothing. Ignored for WeightFormat::float32.
     bool bases_count = false;
-    /// Cost of an error. Without a value: the metric of LightFamily::outdoor, `balanced`.
+    /// Cost of a transfer error, with the layout of the transfer. No value: the `balanced` metric of
+    /// LightFamily::outdoor.
     std::optional<LightMetric> metric = {};
-    /// mu of docs/math.md, eq. 28: the cost of a jump of the error along a mesh edge, relative to the error
-    /// itself.
+    /// mu of docs/math.md, eq. 28: the cost of a squared jump of the error along a mesh edge, relative to the
+    /// cost of a squared error. 0..kMaxSeamWeight; 0: jumps cost nothing.
     double seam_weight = 1;
-    std::uint64_t seed = 0;
-    int threads = 0;          ///< 0: all
-    CompressTrace trace = {}; ///< receives progress events; does not change results
+    std::uint64_t seed = 0;   ///< seed of the initial clusters
+    int threads = 0;          ///< number of threads; 0: all
+    CompressTrace trace = {}; ///< callback for events, which does not change the result; may be empty
 };
 
-/// Measurements of a compression.
+/// Measurements of a compression. "The metric" is CompressOptions::metric or its default. Errors are
+/// fractions, weighted by area: 0.01 is 1 %.
 struct CompressStatistics {
-    /// Expected `lit_rms` under the metric after each round of clustered PCA with the full number of
-    /// components, before weights are quantised.
+    /// [rounds of clustered PCA] relative error after the round, before weights are quantised. It
+    /// approximates `lit_rms`, but receivers with more visible errors count more. With lamps it is an error
+    /// of logarithms of light and cannot be compared with `lit_rms`.
     std::vector<double> lit_rms_by_iteration;
-    double lit_rms = 0; ///< expected lit_rms of the result under the metric
-    /// Contrast error (prt/error_measures.h) under each lamp alone, root mean square over receivers and
-    /// lamps. 0 without lamps, and for probes.
+    double lit_rms = 0; ///< `expected_lit_rms` (prt/light_metric.h) of the result under the metric
+    /// Contrast error (docs/math.md, eq. 33b) with one lamp on and all other light off: root mean square over
+    /// receivers and lamps. 0 if the transfer has no lamps or is that of probes.
     double lamp_contrast = 0;
-    /// Contrast error under skies, relative to the mean light of a receiver; 0 for probes and for transfer of
-    /// lamps alone.
+    /// Contrast error (docs/math.md, eq. 33b) of sky light under the metric, relative to the expected sky
+    /// light of each receiver: root mean square over receivers. 0 if the transfer has only lamps or is that
+    /// of probes.
     double sky_contrast = 0;
-    int clusters = 0;           ///< number of clusters with receivers; empty ones are removed
-    double mean_components = 0; ///< mean over all receivers
-    int predictor_rows = 0;     ///< per cluster
-    double seconds = 0;
-    std::size_t bytes_per_receiver = 0; ///< bytes of vertex attributes: cluster and weights
-    std::size_t bits_per_receiver = 0;  ///< number of used bits
-    std::size_t basis_bytes = 0;        ///< size of all bases, and of the layout of packed weights
+    int clusters = 0;                   ///< number of clusters, all of which have receivers
+    double mean_components = 0;         ///< number of components per receiver, averaged over all receivers
+    int predictor_rows = 0;             ///< number of predictor rows per cluster: three per predictor
+    double seconds = 0;                 ///< duration of the compression
+    std::size_t bytes_per_receiver = 0; ///< size of the cluster index and weights of one receiver, as a game
+                                        ///< binds them
+    std::size_t bits_per_receiver = 0;  ///< used bits in these bytes, maximum over all clusters
+    std::size_t basis_bytes = 0; ///< size of the bases of all clusters in bytes, including the layout of
+                                 ///< packed weights
 
-    /// Returns the error that budgets limit: the maximum of the three errors.
+    /// Returns the error that a budget limits (Budget::max_error): the maximum of `lit_rms`, `lamp_contrast`
+    /// and `sky_contrast`.
     double error() const { return std::max({lit_rms, lamp_contrast, sky_contrast}); }
-    /// Returns the mean number of rows that the vertex shader multiplies by a weight and adds to the cluster
-    /// mean.
+    /// Returns the number of multiply-adds of a color per receiver in the vertex shader, averaged over all
+    /// receivers: one per component and one per predictor row.
     double operations() const { return mean_components + predictor_rows; }
-    /// Returns the size per receiver in bytes, including the bases.
+    /// Returns `bytes_per_receiver` plus the share of one receiver in `basis_bytes`. `receivers`: number of
+    /// receivers of the transfer.
     double bytes_with_bases(std::size_t receivers) const {
         return static_cast<double>(bytes_per_receiver) +
                static_cast<double>(basis_bytes) / static_cast<double>(receivers);
@@ -126,17 +147,22 @@ struct CompressStatistics {
 
 /// Result of the compressor.
 struct CompressResult {
-    ClusteredTransfer transfer;
-    CompressStatistics statistics;
+    ClusteredTransfer transfer;    ///< bases of all clusters; cluster and weights of each receiver
+    CompressStatistics statistics; ///< errors and sizes
 };
 
-/// Compresses `transfer`, whose receivers are described by `surface`. The result does not depend on the
-/// number of threads. Thread-safe. Throws `Error` for options out of range, transfer above
-/// `kMaxInputTransfer`, areas, normals and positions that are not finite, and edges of receivers that do not
-/// exist; throws `Cancelled` after a stop request. Reads transfer block by block. Memory in addition to the
-/// arguments, per receiver: two bytes (four bytes below 65 536 receivers) for every coefficient and predictor
-/// coordinate that contributes to the error, three times the size of its code, and about a hundred bytes.
-/// Time: proportional to receivers × clusters × components.
+/// Compresses `transfer`. `surface` has the areas, edges and attributes of the same receivers, in the same
+/// order; receivers with area 0 do not count in the error. Keeps no references. The result does not depend on
+/// the number of threads. Thread-safe.
+///
+/// Throws `Error` for options out of range, for transfer without receivers, for arrays of `surface` with
+/// another number of receivers, for transfer above `kMaxInputTransfer`, for numbers that are not finite, for
+/// edges to receivers that do not exist, and for a metric with another layout. Throws `Cancelled` after a
+/// stop request.
+///
+/// Memory per receiver, in addition to the arguments: two bytes (four bytes below 65 536 receivers) for every
+/// coefficient and predictor coordinate that contributes to the error, three times the size of the compressed
+/// receiver, and about a hundred bytes. The time is proportional to receivers × clusters × components.
 CompressResult compress(const TransferView& transfer, const ReceiverSurface& surface,
                         const CompressOptions& options, const Progress& progress = {});
 
