@@ -8,8 +8,8 @@
 namespace prt {
 
 /// Exception for invalid input and for failed operations, for example on files; base of all exceptions of
-/// prtkit. `what()` is one line without a line break that a user can act on. If the cause is in a file, the
-/// message names the position in the file; the function that opens the file adds its path.
+/// prtkit. `what()` is one line that a user can act on. A message about a file names the file and, if known,
+/// the position in the file.
 struct Error : std::runtime_error {
     using std::runtime_error::runtime_error;
 };

@@ -1,7 +1,6 @@
 #pragma once
 
-// Reading of whole files, and output files that are written completely or not at all. For Linux.
-// Experimental.
+// Reading of whole files, and output files that are written completely or not at all. Experimental.
 
 #include <cstddef>
 #include <cstdint>
@@ -19,8 +18,9 @@ std::vector<std::byte> read_file(const std::filesystem::path& path);
 
 /// Returns the path of the file that a write to `path` changes: follows symbolic links, even if the last
 /// target does not exist yet. Stops at a path of an open descriptor, such as /proc/self/fd/1, to which
-/// /dev/stdout links. Returns `path` if it is not a link. Throws no `Error`: a link that cannot be read is
-/// returned unchanged.
+/// /dev/stdout links, at a link that cannot be read, and after 40 links. Returns `path` unchanged if it is
+/// not
+/// a link. Throws no `Error`.
 std::filesystem::path followed(std::filesystem::path path);
 
 /// An output file that appears under its path only when it is complete: call `write`, then `commit`; or
@@ -31,11 +31,11 @@ std::filesystem::path followed(std::filesystem::path path);
 /// receives all bytes in `publish`.
 class OutputFile {
 public:
-    /// Prepares the write to `path` without a change to a file of that name. Throws `Error` if the path
+    /// Prepares to write to `path`; does not change an existing file. Throws `Error` if the path
     /// cannot be written: its folder is missing, permission is missing, or the path is a folder.
     explicit OutputFile(std::filesystem::path path);
-    /// If `keep` was not called: removes the new file, and restores the file that `publish` replaced. Bytes
-    /// that `publish` wrote to a stream remain written.
+    /// If `keep` was not called: removes the new file, and restores the file that `publish` replaced, unless
+    /// `publish` replaced it permanently. Bytes that `publish` wrote to a stream remain written.
     ~OutputFile();
     OutputFile(const OutputFile&) = delete;
     OutputFile& operator=(const OutputFile&) = delete;
@@ -55,20 +55,21 @@ public:
     /// not report it.
     std::uintmax_t size() const;
 
-    /// Flushes the written data to disk; does nothing for a stream. Throws `Error` on failure. Call before
-    /// `publish`.
+    /// Flushes the written data to disk; does nothing if `is_stream()`. Throws `Error` on failure. Must be
+    /// called before `publish`.
     void finish();
-    /// Gives the file its path; for a stream, writes all bytes to the stream. A previous file with this path
-    /// gets a hidden name; the destructor restores the previous file unless `keep` follows. If the file
-    /// system cannot exchange two files, the previous file is replaced permanently. Throws `Error` on
-    /// failure.
+    /// Publishes the file under its path; writes all bytes to the target if `is_stream()`. A previous file
+    /// with this path is kept under a hidden name; the destructor restores the previous file unless `keep` is
+    /// called. If the file system cannot exchange two files, the previous file is replaced permanently.
+    /// Throws `Error` on failure.
     void publish();
-    /// Makes the result of `publish` permanent: removes the previous file that `publish` renamed.
+    /// Makes the published file permanent: removes the previous file that `publish` kept under a hidden name.
+    /// Must be called after `publish`.
     void keep() noexcept;
     /// Calls `finish`, `publish` and `keep`. Throws `Error` on failure.
     void commit();
-    /// Deletes the hidden file if there is one and `publish` has not been called; for an interrupt handler,
-    /// after which no destructor runs. No other member may be called afterwards.
+    /// Deletes the hidden file of unpublished data, if there is one. For a process that is interrupted and
+    /// runs no destructors; the file cannot be published afterwards.
     void remove_name() const noexcept;
 
 private:

@@ -11,8 +11,7 @@ namespace prt {
 /// Returns `text` in a form that is safe for a terminal and a log. Visible UTF-8 characters and spaces are
 /// kept. Control characters (including line breaks and tabs), invisible characters, characters that change
 /// the writing direction, and bytes that are not valid UTF-8 become escapes such as \x1b and \u202e. If the
-/// result becomes longer than `max_bytes` before the text ends, it is cut after that character and " ..." is
-/// appended.
+/// result becomes longer than `max_bytes` before the text ends, " ..." replaces the rest of the text.
 std::string printable(std::string_view text, std::size_t max_bytes = 1000);
 
 } // namespace prt
