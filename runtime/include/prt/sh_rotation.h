@@ -14,10 +14,9 @@
 
 namespace prt {
 
-/// Maximum deviation that the constructors of `ShRotation` accept: of each element of R^T R from the unit
-/// matrix, and of the
-/// squared length of a quaternion from 1. It allows for the rounding of thousands of products of float
-/// matrices.
+/// Maximum deviation from a rotation that the constructors of `ShRotation` accept: of each element of R^T R
+/// from the unit matrix, and of the squared length of a quaternion from 1. It allows for the rounding of
+/// thousands of products of float matrices.
 inline constexpr double kRotationTolerance = 2e-3;
 
 /// A rotation R of functions on the sphere. It maps the SH coefficients of a function f to those of f'(w) =

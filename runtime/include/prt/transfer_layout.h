@@ -16,10 +16,10 @@ namespace prt {
 
 /// Kind of light to which a term of a transfer vector responds.
 enum class TermKind {
-    direct,   ///< light of the sky without a bounce and without a medium; suns may be excluded: `Lighting`
-    indirect, ///< light of sky and suns after one bounce or more, or through a participating medium
-    combined, ///< light of sky and suns: the sum of direct and indirect light
-    lamp,     ///< light, with bounces, of one group of lights and emissive materials of the scene
+    direct,   ///< distant light without a bounce and without a medium; `Lighting::suns` does not light it
+    indirect, ///< distant light, including suns, after one bounce or more or through a medium
+    combined, ///< all distant light, including suns: the sum of direct and indirect light
+    lamp,     ///< light, with bounces, of one lamp: a group of lights and emissive materials of the scene
 };
 
 /// Returns the identifier used in files and reports: "direct", "indirect", "combined" or "lamp".
@@ -47,8 +47,8 @@ inline constexpr std::size_t kMaxLamps = 64;
 /// `check_layout` checks the conditions on its members.
 struct TransferLayout {
     int order = 0; ///< order of the terms of distant light, 1..kMaxOrder; 0: not set, which is invalid
-    /// At least one term, in this sequence: `direct`, `indirect` or both, or only `combined`; then any number
-    /// of lamps up to kMaxLamps. The terms of distant light or the lamps may be missing.
+    /// At least one term. First the terms of distant light: nothing, `direct`, `indirect`, both in this
+    /// sequence, or `combined`. Then 0 to kMaxLamps lamp terms.
     std::vector<TransferTerm> terms = {};
     /// Number of RGB colors that a receiver computes from a lighting: 1 for exit radiance; 4, 9 or 16 for the
     /// SH coefficients of incident light at a probe.
@@ -56,8 +56,8 @@ struct TransferLayout {
 
     /// Returns 3 if a term has three channels, else 1.
     int channels() const;
-    /// Returns whether the layout has a term of the given kind. If it has `direct`, `Lighting::suns` can be
-    /// excluded from direct light.
+    /// Returns whether the layout has a term of the given kind. With `direct`, a renderer can add the
+    /// direct light of suns itself.
     bool has(TermKind kind) const;
     /// Number of coefficients per channel of `term`, which is the number of RGB colors that light it: order²
     /// SH coefficients for distant light, or 1 (the strength) for a lamp.
@@ -118,7 +118,8 @@ struct LightingView {
     std::span<const glm::vec3> suns;  ///< [at least order² of the layout]; empty: all light is in `sky`
     std::span<const glm::vec3> lamps; ///< [layout.lamps()] strengths; empty: 1 for every lamp
 
-    /// Views a sky, and optionally suns and strengths of lamps.
+    /// Views the coefficients of a sky, of suns (default: all light is in the sky), and strengths of lamps
+    /// (default: 1 for every lamp).
     LightingView(std::span<const glm::vec3> of_sky, std::span<const glm::vec3> of_suns = {},
                  std::span<const glm::vec3> of_lamps = {})
         : sky(of_sky), suns(of_suns), lamps(of_lamps) {}

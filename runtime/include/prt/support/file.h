@@ -17,10 +17,9 @@ namespace prt {
 std::vector<std::byte> read_file(const std::filesystem::path& path);
 
 /// Returns the path of the file that a write to `path` changes: follows symbolic links, even if the last
-/// target does not exist yet. Stops at a path of an open descriptor, such as /proc/self/fd/1, to which
-/// /dev/stdout links, at a link that cannot be read, and after 40 links. Returns `path` unchanged if it is
-/// not
-/// a link. Throws no `Error`.
+/// target does not exist yet. Returns `path` unchanged if it is not a link. Stops at the path of an open
+/// descriptor, such as /proc/self/fd/1 to which /dev/stdout links, at a link that cannot be read, and after
+/// 40 links. Throws no `Error`.
 std::filesystem::path followed(std::filesystem::path path);
 
 /// An output file that appears under its path only when it is complete: call `write`, then `commit`; or
@@ -31,8 +30,8 @@ std::filesystem::path followed(std::filesystem::path path);
 /// receives all bytes in `publish`.
 class OutputFile {
 public:
-    /// Prepares to write to `path`; does not change an existing file. Throws `Error` if the path
-    /// cannot be written: its folder is missing, permission is missing, or the path is a folder.
+    /// Prepares to write to `path`; does not change an existing file. Throws `Error` if `path` cannot be
+    /// written: its folder is missing, permission is missing, or the path is that of a folder.
     explicit OutputFile(std::filesystem::path path);
     /// If `keep` was not called: removes the new file, and restores the file that `publish` replaced, unless
     /// `publish` replaced it permanently. Bytes that `publish` wrote to a stream remain written.

@@ -20,8 +20,7 @@ namespace prt {
 template <class Json>
 class JsonTreeBuilder {
 public:
-    /// Moves the tree to the caller, after `sax_parse` has returned. The tree is null if the text contained
-    /// no value.
+    /// Moves the tree to the caller. Must be called once, after `Json::sax_parse` has returned.
     Json take() { return std::move(root_); }
 
     // The interface of nlohmann-json's `json_sax`. Each event adds to the tree; true: the parser continues.
