@@ -37,7 +37,7 @@ void clamped_cosine_lobe(int order, const glm::dvec3& normal, std::span<double> 
 
 /// Returns A_l / pi for band l, any l >= 0. A_l is the factor by which convolution with the clamped cosine
 /// max(cos, 0) multiplies the coefficients of band l. The result is 1 for l = 0, 2/3 for l = 1, 1/4 for l =
-/// 2, and 0 for every other odd l.
+/// 2, and 0 for odd l > 1.
 double clamped_cosine_factor(int l);
 
 /// Returns the factor of the Hann window for band l >= 0: 1 for l = 0, 0 for l >= width. `width` > 0 is the
