@@ -1,8 +1,10 @@
 #pragma once
 
-// Spherical harmonics: evaluation and windows. prt/sh_vector.h: sums and products; prt/sh_rotation.h:
-// rotation. Conventions: docs/math.md, section 1. All functions are thread-safe and allocate only for
-// containers that they return. Stable.
+// Spherical harmonics: basis values, the clamped-cosine lobe and windows. prt/sh_vector.h has sums and
+// products; prt/sh_rotation.h has rotation. Conventions: docs/math.md, section 1. All functions are
+// thread-safe and allocate no memory unless they throw. Only `check_order` checks its argument; the other
+// functions require an order in 1..kMaxOrder, unit directions, and output spans that have at least the stated
+// length. Stable.
 
 #include "prt/sh_basis.h"
 #include "prt/support/glm_layout.h"
@@ -13,30 +15,40 @@
 
 namespace prt {
 
-/// Throws `Error` unless 1 <= order <= kMaxOrder.
+/// Throws `Error` unless 1 <= order <= kMaxOrder; otherwise does nothing.
 void check_order(int order);
 
-/// Writes the order² basis values in unit direction `direction` to `basis` [order²].
+/// Writes the value of each of the order² basis functions in unit direction `direction` to `basis` [order²],
+/// at index l(l+1) + m for band l and degree m. Computes in float.
 void evaluate_sh(int order, const glm::vec3& direction, std::span<float> basis);
+/// Writes the value of each of the order² basis functions in unit direction `direction` to `basis` [order²],
+/// at index l(l+1) + m for band l and degree m. Computes in double.
 void evaluate_sh(int order, const glm::dvec3& direction, std::span<double> basis);
 
-/// Evaluates many directions at once, several times faster than one by one. `basis` is [order²][directions]:
-/// all values of one coefficient are contiguous.
+/// Writes the basis values in each of the unit directions `directions` to `basis`
+/// [order²][directions.size()]: all values of one basis function are contiguous. Evaluates several directions
+/// at once, which is several times faster than one call per direction.
 void evaluate_sh(int order, std::span<const glm::vec3> directions, std::span<float> basis);
 
-/// Writes the transfer vector of an unoccluded receiver with unit normal `normal` to `lobe` [order²]: (1/pi)
-/// ∫ max(n·w, 0) Y_i(w) dw, the clamped-cosine lobe (docs/math.md, eq. 8; Ramamoorthi and Hanrahan 2001, eq.
-/// 8).
+/// Writes the clamped-cosine lobe to `lobe` [order²]: element i is (1/pi) ∫ max(n·w, 0) Y_i(w) dw, with n the
+/// unit normal `normal`. The lobe is the transfer vector of an unoccluded receiver of albedo 1
+/// (docs/math.md, eq. 8; Ramamoorthi and Hanrahan 2001, eq. 8).
 void clamped_cosine_lobe(int order, const glm::dvec3& normal, std::span<double> lobe);
 
-/// Returns the convolution factor A_l / pi of the clamped cosine for band l, any l >= 0.
+/// Returns A_l / pi for band l, any l >= 0. A_l is the factor by which convolution with the clamped cosine
+/// max(cos, 0) multiplies the coefficients of band l. The result is 1 for l = 0, 2/3 for l = 1, 1/4 for l =
+/// 2, and 0 for odd l > 1.
 double clamped_cosine_factor(int l);
 
-/// Returns the factor of band l of the Hann window, which reduces ringing (Sloan 2008, "Stupid SH Tricks").
-/// `width` is the band at which the factor reaches 0.
+/// Returns the factor of the Hann window for band l >= 0: 1 for l = 0, 0 for l >= width. `width` > 0 is the
+/// band, possibly fractional, at which the factor reaches 0; infinity: the factor is 1 for every band.
+/// Multiplication of the coefficients of each band with its factor reduces ringing (Sloan 2008, "Stupid SH
+/// Tricks").
 double hann_window(int l, double width);
-/// Returns the factor of band l of the Lanczos window, which reduces ringing (Sloan 2008, "Stupid SH
-/// Tricks"). `width` is the band at which the factor reaches 0.
+/// Returns the factor of the Lanczos window for band l >= 0: 1 for l = 0, 0 for l >= width. `width` > 0 is
+/// the band, possibly fractional, at which the factor reaches 0; infinity: the factor is 1 for every band.
+/// Multiplication of the coefficients of each band with its factor reduces ringing (Sloan 2008, "Stupid SH
+/// Tricks").
 double lanczos_window(int l, double width);
 
 } // namespace prt

@@ -10,21 +10,23 @@
 
 namespace prt {
 
-/// Maximum order N; bands are l = 0..N-1.
+/// Maximum order that prtkit supports; the minimum is 1. Order N has the bands l = 0..N-1.
 inline constexpr int kMaxOrder = 10;
 
-/// Returns the number of coefficients of `order` bands, order².
+/// Returns order², the number of SH coefficients of the bands l = 0..order-1.
 constexpr int coefficient_count(int order) {
     return order * order;
 }
 
-/// Returns the index of the coefficient of band l and degree m, -l <= m <= l.
+/// Returns l(l+1) + m, the index of the coefficient of band l >= 0 and degree m, -l <= m <= l, in an SH
+/// vector of any order above l.
 constexpr int sh_index(int l, int m) {
     return l * (l + 1) + m;
 }
 
 namespace detail {
 
+/// Returns the square root of `value` >= 0 at compile time. The result for 0 is 2^-64.
 constexpr double square_root(double value) {
     double root = value > 1 ? value : 1;
     for (int i = 0; i < 64; ++i)
@@ -32,15 +34,18 @@ constexpr double square_root(double value) {
     return root;
 }
 
-/// Factors of the recurrence over l of the normalised associated Legendre functions, divided by sin^m: Q_m^m
-/// = sectoral[m] and Q_l^m = a[l][m] z Q_{l-1}^m - b[l][m] Q_{l-2}^m (docs/math.md, eq. 3). The factor
-/// sqrt(2) of m != 0 and the Condon-Shortley phase (-1)^m are included.
+/// Constants of the polynomials Q_l^m(z), which are the normalised associated Legendre functions divided by
+/// sin^m of the polar angle; z is its cosine. Q includes the factor sqrt(2) of m != 0 and the Condon-Shortley
+/// phase (-1)^m (docs/math.md, eq. 3).
 struct LegendreRecurrence {
-    std::array<double, kMaxOrder> sectoral{};
+    std::array<double, kMaxOrder> sectoral{}; ///< [m] Q_m^m, which is constant
+    /// [l][m] factors of the recurrence Q_l^m = a[l][m] z Q_{l-1}^m - b[l][m] Q_{l-2}^m for m < l; 0 for
+    /// other m.
     std::array<std::array<double, kMaxOrder>, kMaxOrder> a{}, b{};
-    /// Polynomials in z for l = m+1, m+2, m+3: linear z, quadratic[0] z² - quadratic[1], z (cubic[0] z² -
-    /// cubic[1]).
+    /// [m] Q_{m+1}^m = linear[m] z.
     std::array<double, kMaxOrder> linear{};
+    /// [m] Q_{m+2}^m = quadratic[m][0] z² - quadratic[m][1], and Q_{m+3}^m = z (cubic[m][0] z² -
+    /// cubic[m][1]).
     std::array<std::array<double, 2>, kMaxOrder> quadratic{}, cubic{};
 
     constexpr LegendreRecurrence() {
@@ -72,8 +77,10 @@ struct LegendreRecurrence {
     }
 };
 
+/// The constants of Q_l^m for all bands up to kMaxOrder - 1.
 inline constexpr LegendreRecurrence kLegendre;
 
+/// Type of one number of `Real`: the element of a SIMD vector, or `Real` itself if it is float or double.
 template <class Real>
 struct ScalarOf {
     using type = std::remove_cvref_t<decltype(std::declval<Real>()[0])>;
@@ -86,11 +93,13 @@ struct ScalarOf<Real> {
 
 } // namespace detail
 
-/// Value of the basis function of band 0, which is constant.
+/// Value of the basis function of band 0 in every direction: 1 / (2 sqrt(pi)) = 0.2821.
 inline constexpr double kY00 = detail::kLegendre.sectoral[0];
 
-/// Writes the Order² values of the basis in unit direction (x, y, z) to `basis`. Real, orthonormal,
-/// Condon-Shortley phase, polar axis z (docs/math.md, eq. 1 to 3).
+/// Writes the values of the Order² basis functions in unit direction (x, y, z) to `basis` [Order²], at index
+/// `sh_index(l, m)`. The basis is real and orthonormal, includes the Condon-Shortley phase (-1)^m, and has
+/// the polar axis z (docs/math.md, eq. 1 to 3). `Order` is 1..kMaxOrder. If `Real` is a SIMD vector, each
+/// lane is one direction.
 template <int Order, class Real>
 [[gnu::always_inline]] inline void sh_basis(const Real& x, const Real& y, const Real& z, Real* basis) {
     using Scalar = typename detail::ScalarOf<Real>::type;
@@ -138,7 +147,8 @@ template <int Order, class Real>
     }
 }
 
-/// Calls `body.operator()<N>()` for the N that equals `order`, 1 <= order <= kMaxOrder.
+/// Calls `body.operator()<N>()` with N = order as a template argument, and returns its result. `order` must
+/// be in 1..kMaxOrder. The results for all N must have the same type.
 template <class Body>
 [[gnu::always_inline]] inline decltype(auto) with_order(int order, Body&& body) {
     switch (order) {

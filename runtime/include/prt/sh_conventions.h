@@ -1,7 +1,7 @@
 #pragma once
 
-// Conversion of lighting to and from the conventions of other software. docs/conventions.md compares them.
-// Stable.
+// Conversion of SH lighting between the conventions of prtkit and those of three.js, glTF and D3DX
+// (docs/conventions.md). Colors are linear Rec. 709. Functions are thread-safe. Stable.
 
 #include "prt/light.h"
 
@@ -10,34 +10,49 @@
 
 namespace prt {
 
-/// Converts to or from a basis without the Condon-Shortley phase: multiplies each coefficient by (-1)^m.
-/// [order²], in place.
+/// Multiplies each of the `coefficients` [order²] of degree m by (-1)^m, in place. This converts them from a
+/// basis with the Condon-Shortley phase, which prtkit uses, to a basis without it, or back.
 void flip_condon_shortley(int order, std::span<float> coefficients);
+/// Multiplies each of the `coefficients` [order²] of degree m by (-1)^m, in place. This converts them from a
+/// basis with the Condon-Shortley phase, which prtkit uses, to a basis without it, or back.
 void flip_condon_shortley(int order, std::span<double> coefficients);
+/// Multiplies each of the RGB `coefficients` [order²] of degree m by (-1)^m, in place. This converts them
+/// from a basis with the Condon-Shortley phase, which prtkit uses, to a basis without it, or back.
 void flip_condon_shortley(int order, std::span<glm::vec3> coefficients);
 
-/// Returns the nine coefficients of three.js's `SphericalHarmonics3` for `LightProbe`: radiance, no
-/// Condon-Shortley phase. Throws `Error` for lighting of fewer than three bands.
+/// Returns the first three bands of `light` as the nine coefficients of three.js's `SphericalHarmonics3`, for
+/// its `LightProbe`. They represent radiance, in a basis without the Condon-Shortley phase, at index l(l+1) +
+/// m. Throws `Error` if `light` has fewer than three bands, or if a coefficient is not finite.
 std::array<glm::vec3, 9> to_three_js(const Light& light);
-/// Returns three bands of lighting from the coefficients of three.js.
+/// Returns light of order 3 from the nine coefficients of three.js's `SphericalHarmonics3`, which represent
+/// radiance; the inverse of `to_three_js`. Throws `Error` if a coefficient is not finite.
 Light from_three_js(const std::array<glm::vec3, 9>& coefficients);
 
-/// Returns `irradianceCoefficients` of glTF's `EXT_lights_image_based`: irradiance instead of radiance
-/// (convolved with the clamped cosine), no Condon-Shortley phase, in the order L00, L1-1, L10, L11, L2-2, ..
-/// L22, which is also the order of prtkit. Throws `Error` for lighting of fewer than three bands.
+/// Returns the first three bands of `light` as `irradianceCoefficients` of glTF's `EXT_lights_image_based`.
+/// They represent irradiance, which is radiance convolved with the clamped cosine (factors pi, 2 pi / 3 and
+/// pi / 4 for bands 0, 1 and 2), in a basis without the Condon-Shortley phase. Their sequence L00, L1-1, L10,
+/// L11, L2-2, .. L22 equals that of prtkit. Throws `Error` if `light` has fewer than three bands, or if a
+/// result is not finite.
 std::array<glm::vec3, 9> to_gltf_irradiance(const Light& light);
-/// Returns three bands of lighting from the irradiance coefficients of glTF, by division by the convolution
-/// factors.
+/// Returns light of order 3 from the nine `irradianceCoefficients` of glTF's `EXT_lights_image_based`; the
+/// inverse of `to_gltf_irradiance`. Throws `Error` if a coefficient is not finite.
 Light from_gltf_irradiance(const std::array<glm::vec3, 9>& coefficients);
 
-/// Returns the light of D3DX's `D3DXSHEvalDirectionalLight`, with its scale (docs/conventions.md): a receiver
-/// of albedo 1 that faces the light has exit radiance `intensity`, evaluated with `order` bands.
+/// Returns the light of D3DX's `D3DXSHEvalDirectionalLight`, with the scale of D3DX (docs/conventions.md): an
+/// unoccluded receiver of albedo 1 that faces the light has the exit radiance `intensity`, computed with
+/// `order` bands. `towards` is the unit direction from the receiver to the light. Throws `Error` for an
+/// invalid order, a direction of length 0, and arguments that are not finite.
 Light d3dx_directional_light(int order, const glm::vec3& towards, const glm::vec3& intensity);
-/// Returns the light of D3DX's `D3DXSHEvalConeLight`: radiance intensity / sin²(min(half_angle, pi/2)). With
-/// all bands, a receiver of albedo 1 that faces the light would have exit radiance `intensity`. Throws the
-/// errors of `cone_light`, and `Error` for a half angle of 0.
+/// Returns the light of D3DX's `D3DXSHEvalConeLight`: radiance intensity / sin²(min(half_angle, pi/2)) inside
+/// the cone, 0 outside. `axis` is the unit direction from the receiver to the center of the light, and
+/// `half_angle` is in radians. With infinitely many bands, a receiver of albedo 1 that faces the light would
+/// have the exit radiance `intensity`. Throws `Error` unless 0 < half_angle <= pi, for an invalid order, an
+/// axis of length 0, and arguments that are not finite.
 Light d3dx_cone_light(int order, const glm::vec3& axis, double half_angle, const glm::vec3& intensity);
-/// Returns the light of D3DX's `D3DXSHEvalHemisphereLight`: 3/2 of the radiance of `hemisphere_light`.
+/// Returns the light of D3DX's `D3DXSHEvalHemisphereLight`, which is 3/2 times `hemisphere_light` of
+/// prt/light.h: its radiance changes linearly in the cosine to the unit direction `up`, from 3/2 `bottom`
+/// below to 3/2 `top` above. Throws `Error` for an invalid order, a direction of length 0, and arguments that
+/// are not finite.
 Light d3dx_hemisphere_light(int order, const glm::vec3& up, const glm::vec3& top, const glm::vec3& bottom);
 
 } // namespace prt

@@ -1,6 +1,6 @@
 #pragma once
 
-// Rotation of spherical harmonics. Stable.
+// Rotation of functions that are given by SH coefficients, such as lighting. Stable.
 
 #include "prt/sh_basis.h"
 #include "prt/support/glm_layout.h"
@@ -14,49 +14,68 @@
 
 namespace prt {
 
-/// Maximum error of an element of R^T R, or of the squared length of a quaternion. It allows for the rounding
-/// of thousands of products of float matrices.
+/// Maximum deviation from a rotation that the constructors of `ShRotation` accept: of each element of R^T R
+/// from the unit matrix, and of the squared length of a quaternion from 1. It allows for the rounding of
+/// thousands of products of float matrices.
 inline constexpr double kRotationTolerance = 2e-3;
 
-/// Rotates SH vectors: for a function f with coefficients c, the result has f'(w) = f(R^-1 w). Bands 1 and 2
-/// are a vector and a quadratic form, which R rotates directly. For higher bands R is decomposed into R_z R_y
-/// R_z, and R_y into rotations by 90 degrees about x and another R_z (docs/math.md, eq. 4). Rotations about z
-/// are products with cosines and sines; the rotations by 90 degrees are constant matrices, and three quarters
-/// of their elements are zero. All arithmetic is in double, so that ten thousand steps lose no visible
-/// precision. Small, allocates nothing, thread-safe; serves every order up to that of the constructor.
+/// A rotation R of functions on the sphere. It maps the SH coefficients of a function f to those of f'(w) =
+/// f(R^-1 w): light from direction w then comes from R w (docs/math.md, eq. 4). All arithmetic is in double,
+/// so that ten thousand successive rotations lose no visible precision. Immutable and thread-safe; allocates
+/// no memory.
 class ShRotation {
 public:
-    /// Throws `Error` for an order outside 1..kMaxOrder and for matrices that are not rotations within
-    /// `kRotationTolerance`: scaled, sheared, mirrored, or with NaN. Smaller errors are removed by
-    /// orthonormalisation.
+    /// Creates the rotation R = `rotation`, which multiplies column vectors, for SH vectors of `order` bands.
+    /// A matrix that deviates from a rotation by at most `kRotationTolerance` is orthonormalised. Throws
+    /// `Error` if the matrix deviates more (it scales, shears or contains NaN), if it mirrors, or if `order`
+    /// is not in 1..kMaxOrder.
     ShRotation(int order, const glm::dmat3& rotation);
-    /// Throws `Error` unless the squared length of `rotation` is 1 within `kRotationTolerance`.
+    /// Creates the rotation of the quaternion `rotation`, which is normalised, for SH vectors of `order`
+    /// bands. Throws `Error` if the squared length of `rotation` differs from 1 by more than
+    /// `kRotationTolerance`, or if `order` is not in 1..kMaxOrder.
     ShRotation(int order, const glm::dquat& rotation);
-    /// Returns a rotation by `angle` radians, counter-clockwise seen from the tip of the axis.
+    /// Returns a rotation about the x axis by `angle` radians, counter-clockwise seen from +x towards the
+    /// origin. Throws `Error` for an invalid order or an angle that is not finite.
     static ShRotation about_x(int order, double angle);
+    /// Returns a rotation about the y axis by `angle` radians, counter-clockwise seen from +y towards the
+    /// origin. Throws `Error` for an invalid order or an angle that is not finite.
     static ShRotation about_y(int order, double angle);
-    static ShRotation about_z(int order, double angle); ///< the fastest
+    /// Returns a rotation about the z axis by `angle` radians, counter-clockwise seen from +z towards the
+    /// origin. Rotations about z are faster to apply than others. Throws `Error` for an invalid order or an
+    /// angle that is not finite.
+    static ShRotation about_z(int order, double angle);
 
+    /// Number of bands that `apply` rotates, as passed to the constructor.
     int order() const { return order_; }
-    /// Rotates [order²] coefficients; `in` and `out` may be the same.
+    /// Writes the rotated coefficients of `in` to `out`. Both have at least order()² elements; further
+    /// elements are neither read nor written. `in` and `out` may be the same span, but must not overlap
+    /// partially.
     void apply(std::span<const float> in, std::span<float> out) const;
+    /// Writes the rotated coefficients of `in` to `out`. Both have at least order()² elements; further
+    /// elements are neither read nor written. `in` and `out` may be the same span, but must not overlap
+    /// partially.
     void apply(std::span<const double> in, std::span<double> out) const;
-    /// Rotates RGB coefficients [order²] in place. Three channels together cost little more than one.
+    /// Rotates the first order()² RGB coefficients in place. Three channels together cost little more than
+    /// one.
     void apply(std::span<glm::vec3> coefficients) const;
-    /// Rotates RGB coefficients [order²]; `in` and `out` may be the same.
+    /// Writes the rotated RGB coefficients of `in` to `out`. Both have at least order()² elements; further
+    /// elements are neither read nor written. `in` and `out` may be the same span.
     void apply(std::span<const glm::vec3> in, std::span<glm::vec3> out) const;
 
-    /// cos(m a) and sin(m a) of a rotation by a about z.
+    /// A rotation by an angle a about the z axis: cos(m a) and sin(m a) for m = 0..order-1. Implementation
+    /// detail.
     struct Rotation {
-        static constexpr std::size_t kZero = 3; ///< index of m = 0; vector code that handles several bands
-                                                ///< reads the entries before it
+        /// Index of the entry for m = 0. The three entries before it are 0; SIMD code reads them as padding.
+        static constexpr std::size_t kZero = 3;
+        /// Cosine and sine of m a at index kZero + m. Entries for m >= order may be uninitialised.
         std::array<double, kZero + kMaxOrder> cosine, sine;
-        Rotation() {} // leaves entries that the order does not use uninitialised
+        Rotation() {} // leaves all entries uninitialised
     };
-    /// Decomposition of a rotation: about z first, then about y (tilt), then about z again.
+    /// Decomposition R = R_z(last) R_y(tilt) R_z(first), used for orders above 3. Implementation detail.
     struct Rotations {
-        Rotation first, tilt, last;
-        bool tilted = false; ///< false: the rotation is `first` alone
+        Rotation first, tilt, last; ///< factors in the sequence of their application: about z, y and z
+        /// False if R is a rotation about z, equal to `first`; `tilt` and `last` are then not used.
+        bool tilted = false;
     };
 
 private:

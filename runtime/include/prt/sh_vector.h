@@ -1,8 +1,9 @@
 #pragma once
 
-// Functions on the sphere as vectors of SH coefficients [order²]: sums, dot products, products; for float and
-// double. All functions are thread-safe and allocate nothing, except tables of `sh_product`. Arguments are
-// checked by assert only. Stable.
+// Functions on the sphere as vectors of SH coefficients [order²]: sums, dot products and products, in float
+// and double. All functions are thread-safe. They allocate no memory, except that `sh_product` and
+// `sh_product_matrix` build tables at their first call. Arguments are not checked in release builds: the
+// order must be in 1..kMaxOrder, and spans must have the stated length. Stable.
 
 #include "prt/sh_basis.h"
 #include "prt/support/glm_layout.h"
@@ -16,7 +17,7 @@
 
 namespace prt {
 
-/// Computes out = a + b; `out` may be `a` or `b`.
+/// Computes out = a + b, element by element. All three spans have the same length; `out` may be `a` or `b`.
 template <class Real>
 void sh_add(std::span<const Real> a, std::type_identity_t<std::span<const Real>> b, std::span<Real> out) {
     assert(a.size() == b.size() && a.size() == out.size());
@@ -24,7 +25,7 @@ void sh_add(std::span<const Real> a, std::type_identity_t<std::span<const Real>>
         out[i] = a[i] + b[i];
 }
 
-/// Computes out = factor a; `out` may be `a`.
+/// Computes out = factor · a, element by element. `a` and `out` have the same length; `out` may be `a`.
 template <class Real>
 void sh_scale(std::span<const Real> a, std::type_identity_t<Real> factor, std::span<Real> out) {
     assert(a.size() == out.size());
@@ -32,7 +33,9 @@ void sh_scale(std::span<const Real> a, std::type_identity_t<Real> factor, std::s
         out[i] = factor * a[i];
 }
 
-/// Returns ∫ a(w) b(w) dw; the basis is orthonormal.
+/// Returns the integral over all directions ∫ a(w) b(w) dw of two functions with the SH coefficients `a` and
+/// `b`, which have the same length. This is the sum of the products of their coefficients, because the basis
+/// is orthonormal.
 template <class Real>
 Real sh_dot(std::span<const Real> a, std::type_identity_t<std::span<const Real>> b) {
     assert(a.size() == b.size());
@@ -42,20 +45,26 @@ Real sh_dot(std::span<const Real> a, std::type_identity_t<std::span<const Real>>
     return sum;
 }
 
-/// Returns the function's value in unit direction `direction`.
+/// Returns the value of the function with the coefficients `function` [order²] in unit direction `direction`.
+/// The span must have exactly order² elements.
 float sh_value(int order, std::span<const float> function, const glm::vec3& direction);
+/// Returns the value of the function with the coefficients `function` [order²] in unit direction `direction`.
+/// The span must have exactly order² elements.
 double sh_value(int order, std::span<const double> function, const glm::dvec3& direction);
 
-/// Computes the first `order` bands of the product of two functions of `order` bands, exact up to rounding:
-/// for example shadow times light, or light times the transmittance of an object. Up to order 3 it uses the
-/// table of triple products. Higher orders use a quadrature that is exact for three times the degree
-/// (docs/math.md, eq. 5), which needs far fewer operations there; its tables are built at the first call.
-/// `out` may be `a` or `b`. Equivalent to D3DXSHMultiply2 to 6.
+/// Writes the first `order` bands of the product a(w) b(w) to `out`, exact up to rounding
+/// (docs/math.md, eq. 5): for example shadow times light, or light times the transmittance of an object. `a`,
+/// `b` and `out` are [order²]; `out` may be `a` or `b`. The first call for an order above 3 builds tables,
+/// which allocates memory. Equivalent to D3DXSHMultiply2 to 6.
 void sh_product(int order, std::span<const float> a, std::span<const float> b, std::span<float> out);
+/// Writes the first `order` bands of the product a(w) b(w) to `out`, exact up to rounding
+/// (docs/math.md, eq. 5). `a`, `b` and `out` are [order²]; `out` may be `a` or `b`. The first call for an
+/// order above 3 builds tables, which allocates memory.
 void sh_product(int order, std::span<const double> a, std::span<const double> b, std::span<double> out);
 
-/// Computes the matrix [order²][order²] of the product with `function`: row i, column j hold ∫ f Y_i Y_j.
-/// Used for many products with one function, or to transform transfer by it (self-transfer). Symmetric.
+/// Writes the matrix M of the product with `function` [order²] to `matrix` [order²][order²]: row i, column j
+/// contains ∫ f(w) Y_i(w) Y_j(w) dw. M is symmetric. M g equals `sh_product` of f and g; a caller with many
+/// functions g forms M once. The first call builds tables, which allocates memory.
 void sh_product_matrix(int order, std::span<const double> function, std::span<double> matrix);
 
 } // namespace prt

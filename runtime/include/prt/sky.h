@@ -1,7 +1,7 @@
 #pragma once
 
-// An analytic clear sky: A. J. Preetham, P. Shirley and B. Smits, "A Practical Analytic Model for Daylight",
-// SIGGRAPH 1999. Stable.
+// An analytic model of the clear daytime sky: A. J. Preetham, P. Shirley and B. Smits, "A Practical Analytic
+// Model for Daylight", SIGGRAPH 1999. Stable.
 
 #include "prt/light.h"
 
@@ -9,34 +9,38 @@
 
 namespace prt {
 
-/// The sky without its sun, about +Y. Radiance is linear Rec. 709 in kcd/m² (the model's unit); scale it to
-/// the exposure. Immutable, thread-safe.
+/// The light of the sky without the disc of the sun. +Y is up. Radiance is linear Rec. 709 and scaled so that
+/// its luminance is in kcd/m², the unit of the model; callers multiply it by their exposure. Immutable and
+/// thread-safe.
 class PreethamSky {
 public:
-    /// `turbidity` is 2 (clear) to 10 (haze), the range for which the model was fitted; values from 1.7 are
-    /// accepted. `sun` is the unit direction to the sun, not below the horizon. Throws `Error` for other
-    /// values.
+    /// `turbidity` measures the haze: 2 is a clear sky, 10 is hazy. The model was fitted for 2 to 10. `sun`
+    /// is the unit direction to the sun. Throws `Error` unless turbidity is in 1.7..10, sun.y >= 0 and the
+    /// length of `sun` is 1 within 0.001.
     PreethamSky(double turbidity, const glm::dvec3& sun);
 
-    /// Returns the radiance in unit direction `direction`; black below the horizon.
+    /// Returns the radiance from unit direction `direction`: linear Rec. 709, luminance in kcd/m², no
+    /// negative channel. Returns black for direction.y <= 0.
     glm::dvec3 radiance(const glm::dvec3& direction) const;
-    /// Returns the luminance of the zenith in kcd/m².
+    /// Luminance of the sky in direction +Y, in kcd/m².
     double zenith_luminance() const { return zenith_luminance_; }
 
 private:
-    /// The five parameters of the distribution of Perez et al. (1993), fitted as in the paper's appendix A.2.
+    /// The five parameters A to E of the sky distribution of Perez et al. (1993), from the formulas of
+    /// Preetham et al., appendix A.2.
     using Perez = std::array<double, 5>;
 
-    glm::dvec3 sun_;
-    Perez luminance_, x_, y_;
+    glm::dvec3 sun_;          ///< unit direction to the sun
+    Perez luminance_, x_, y_; ///< distributions of the luminance and of the CIE chromaticities x and y
     double zenith_luminance_; ///< kcd/m²
-    /// Luminance and CIE chromaticity of the zenith, divided by the values of the distributions at the
-    /// zenith.
+    /// Luminance (kcd/m²) and CIE chromaticities x and y of the zenith, each divided by the value of its
+    /// distribution at the zenith.
     double luminance_over_perez_, x_over_perez_, y_over_perez_;
 };
 
-/// Projects the sky into SH by quadrature over the upper hemisphere, because the model has no closed form.
-/// Add `directional_light` or `cone_light` for the sun, and a light from below for the ground.
+/// Returns the radiance of `sky` as SH coefficients of `order` bands, in the unit of `PreethamSky::radiance`.
+/// The result contains neither the sun nor light from the ground; callers can add both with `sum` of
+/// prt/light.h, for example a `cone_light`. Throws `Error` for an order outside 1..kMaxOrder.
 Light sky_light(int order, const PreethamSky& sky);
 
 } // namespace prt

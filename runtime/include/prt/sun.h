@@ -1,6 +1,6 @@
 #pragma once
 
-// A sun that is separate from the sky. Stable.
+// A sun that is separate from the sky, so that a renderer can shadow it. Stable.
 
 #include "prt/light.h"
 
@@ -10,18 +10,22 @@
 
 namespace prt {
 
-/// A distant disc of uniform radiance, or a directional light if `half_angle` is 0.
+/// A sun: a distant disc of uniform radiance, or a directional light if `half_angle` is 0.
 struct Sun {
-    glm::vec3 towards = {0, 1, 0}; ///< unit direction to its center
-    glm::vec3 irradiance{0};       ///< on a receiver that faces it, linear Rec. 709, in units of radiance
-                                   ///< times sr
-    double half_angle = 0;         ///< radians
+    glm::vec3 towards = {0, 1, 0}; ///< unit direction from the receiver to the center of the disc
+    /// Irradiance on a receiver that faces the center of the disc: linear Rec. 709, in the unit of the sky's
+    /// radiance times sr. An unoccluded receiver of albedo 1 then has the exit radiance irradiance / pi.
+    glm::vec3 irradiance{0};
+    double half_angle = 0; ///< angle from the center of the disc to its rim, radians, 0..pi/2
 };
 
-/// Returns a sun as SH coefficients (docs/math.md, eq. 14), for `Lighting::suns`. Throws `Error` for a half
-/// angle outside 0..pi/2 and for values that are not finite.
+/// Returns `sun` as SH radiance coefficients of `order` bands (docs/math.md, eq. 14), for example for
+/// `Lighting::suns`. Throws `Error` for an order outside 1..kMaxOrder, a half angle outside 0..pi/2, a
+/// direction of length 0, and values that are not finite.
 Light as_light(const Sun& sun, int order);
-/// Returns the sum of all `suns` as SH coefficients, for `Lighting::suns`.
+/// Returns the sum of all `suns` as SH radiance coefficients of `order` bands, for example for
+/// `Lighting::suns`; all coefficients are 0 if `suns` is empty. Throws `Error` if a sun or the order is
+/// invalid, or if the sum overflows a float.
 Light as_light(std::span<const Sun> suns, int order);
 
 } // namespace prt

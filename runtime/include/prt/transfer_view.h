@@ -1,7 +1,7 @@
 #pragma once
 
-// Uniform access to transfer vectors that are stored as floats, as float16, or compressed. Code that reads
-// them block by block needs no float copy of all vectors. Experimental.
+// Uniform read access to transfer vectors that are stored as floats, as float16, or compressed. Code that
+// reads the vectors in blocks needs no float copy of all of them. Experimental.
 
 #include "prt/clustered_transfer.h"
 #include "prt/transfer.h"
@@ -14,34 +14,48 @@
 
 namespace prt {
 
-/// Transfer as stored in a file: floats, or float16, which needs half the memory and converts to float
-/// exactly.
+/// Raw transfer in the number format of its file. Either `floats` or `halves` has data. Float16 needs half
+/// the memory of float and converts to float exactly.
 struct StoredTransfer {
-    TransferLayout layout;
-    std::vector<float> floats;         ///< [receivers][layout.dimension()], or empty
-    std::vector<std::uint16_t> halves; ///< [receivers][layout.dimension()] as float16, or empty
+    TransferLayout layout;             ///< the same for all receivers
+    std::vector<float> floats;         ///< [receivers][layout.dimension()]; empty if `halves` is used
+    std::vector<std::uint16_t> halves; ///< [receivers][layout.dimension()] bits of finite float16 numbers;
+                                       ///< empty if `floats` is used
 
+    /// Returns the number of receivers; 0 if the layout has no terms.
     std::size_t receivers() const;
 };
 
-/// Reads transfer vectors. Refers to `Transfer` objects; copies a `Read` function, and is thread-safe if that
-/// is.
+/// Reads the transfer vectors of a list of receivers, in blocks, as floats. A view of a `Transfer`,
+/// `StoredTransfer` or `ClusteredTransfer` keeps a reference to that object, which must outlive the view and
+/// all copies of the view, and is thread-safe. A view of a `Read` function owns a copy of the function, and
+/// is thread-safe if the function is.
 class TransferView {
 public:
-    /// Function that writes the vectors of consecutive receivers, starting at `first`, to `to`
-    /// [n][dimension]. The size of `to` determines their number n.
+    /// Function that writes the transfer vectors of n consecutive receivers, the first with index `first`, to
+    /// `to` [n][dimension]. The size of `to` determines n.
     using Read = std::function<void(std::size_t first, std::span<float> to)>;
 
+    /// Views `transfer`, without a copy of its vectors. Keeps a reference to `transfer`.
     TransferView(const Transfer& transfer);
+    /// Views `transfer`; `read` converts float16 to float. Keeps a reference to `transfer`.
     TransferView(const StoredTransfer& transfer);
-    /// Decodes the compressed vectors block by block, as `decode` does.
+    /// Views compressed transfer; `read` decompresses only the requested vectors, with the same result as
+    /// `decode`. Keeps a reference to `transfer`.
     TransferView(const ClusteredTransfer& transfer);
+    /// Creates a view that reads with the function `read`, for example from a file. `receivers` is their
+    /// number; each vector has layout.dimension() coefficients.
     TransferView(TransferLayout layout, std::size_t receivers, Read read);
 
+    /// Layout of the vectors that `read` writes.
     const TransferLayout& layout() const { return layout_; }
+    /// Number of coefficients of one transfer vector.
     std::size_t dimension() const { return dimension_; }
+    /// Number of receivers.
     std::size_t receivers() const { return receivers_; }
-    /// Reads the vectors of receivers first, first + 1, ... into `to` [n][dimension()].
+    /// Writes the transfer vectors of n consecutive receivers, the first with index `first`, to `to`
+    /// [n][dimension()]. The size of `to` determines n. Requires first + n <= receivers(), which is not
+    /// checked.
     void read(std::size_t first, std::span<float> to) const { read_(first, to); }
 
 private:
@@ -50,10 +64,13 @@ private:
     Read read_;
 };
 
-/// Returns a view that applies `as_combined` of prt/transfer.h to each vector.
+/// Returns a view whose vectors are those of `transfer` after `as_combined` of prt/transfer.h: one `combined`
+/// term replaces `direct` and `indirect`. The object that `transfer` refers to must outlive the result.
+/// Requires layout.outputs = 1.
 TransferView as_combined(TransferView transfer);
-/// Returns a view in another order: its receiver p is receiver order[p] of `transfer`. `order` is
-/// [receivers].
+/// Returns a view of order.size() receivers in another sequence: its receiver p is receiver order[p] of
+/// `transfer`. Indices may be omitted or repeated. The object that `transfer` refers to must outlive the
+/// result.
 TransferView in_order(TransferView transfer, std::vector<std::uint32_t> order);
 
 } // namespace prt

@@ -1,7 +1,7 @@
 #ifndef PRT_VERSION_H
 #define PRT_VERSION_H
 
-/* The version of prtkit, in C and C++. Stable. */
+/* The version MAJOR.MINOR.PATCH of prtkit's headers, for C and C++. Stable. */
 #define PRTKIT_VERSION_MAJOR 0
 #define PRTKIT_VERSION_MINOR 1
 #define PRTKIT_VERSION_PATCH 0

@@ -1,6 +1,7 @@
 #pragma once
 
-// The per-lighting work of a game with a volume: computes incident light of all probes as a texture.
+// The work of a game with a volume when the lighting changes: computes the incident light at all probes, as
+// the light texture of prt/volume_textures.h.
 //
 //     VolumeRelighter relighter(volume);                                  // once per model
 //     std::vector<glm::vec4> constants(relighter.rows());
@@ -21,38 +22,48 @@
 
 namespace prt {
 
-/// Format of the light texture.
+/// Number format of the four channels of a texel of the light texture.
 enum class VolumeFormat {
-    rgba16, ///< half floats, -65 504 to 65 504
-    rgba32, ///< floats, which some GPUs cannot filter
+    rgba16, ///< RGBA16F, 8 bytes per texel; magnitudes above 65 504 become 65 504
+    rgba32, ///< RGBA32F, 16 bytes per texel; some GPUs cannot filter such textures
 };
 
-/// Computes volume textures. Thread-safe. Allocates only in the constructor; `update` starts threads unless
-/// `threads` is 1.
+/// Computes the light texture of a volume for a lighting. Immutable and thread-safe. After construction it
+/// allocates no memory, except that `update` starts threads unless its parameter `threads` is 1.
 class VolumeRelighter {
 public:
-    /// Keeps a reference to `volume`, whose weights must be packed.
+    /// Prepares the light texture of `volume` in the given format. Keeps a reference to `volume`, which must
+    /// outlive the relighter. Requires packed weights. Throws `Error` if bricks of the volume overlap.
     explicit VolumeRelighter(const CompressedVolume& volume, VolumeFormat format = VolumeFormat::rgba16);
 
+    /// Layout of the transfer vectors of the volume.
     const TransferLayout& layout() const { return constants_.layout(); }
+    /// Positions of the bricks in the light texture, and the size of this texture.
     const VolumeAtlas& atlas() const { return atlas_; }
-    /// Number of constants, as for ClusterLighting.
+    /// Number of constants, `ClusterLighting::rows()`: for each row of the bases, one per coefficient of
+    /// incident light.
     std::size_t rows() const { return constants_.rows(); }
+    /// Number of probes of the volume.
     std::size_t probes() const { return first_texels_.size() - 1; }
-    /// Size of the light texture in bytes.
+    /// Size of the light texture in bytes: all planes of `atlas()`, in the format passed to the constructor.
     std::size_t bytes() const;
 
-    /// Computes the constants as ClusterLighting does and writes them to `constants` [rows]. The `w` of the
-    /// constants of output 0 is the visibility of a sun in unit direction `sun`. It is 0 without a sun, and
-    /// without a `direct` term, because all transfer then includes suns. Throws `Error` if the lighting has
-    /// too few bands.
+    /// Computes the constants for `lighting` and writes them to `constants` [rows()]: r, g, b are those of
+    /// `ClusterLighting::update`. For output 0, w is the response of the row to a sun in unit direction
+    /// `sun`, from which `update` computes the visibility of this sun at each probe. For other outputs, w is
+    /// 0. All w are 0 if `sun` has no value, and if the transfer has no `direct` term, because suns then
+    /// light all of its terms. Throws `Error` if the sky or the suns have too few bands, or the number of
+    /// lamp strengths is wrong.
     void update_constants(const LightingView& lighting, const std::optional<glm::vec3>& sun,
                           std::span<glm::vec4> constants) const;
 
-    /// Computes the texels of all probes and writes them to `texels` [bytes()]. Texels outside bricks are not
-    /// changed.
+    /// Computes the light texture from the `constants` [rows()] of `update_constants`, and writes it to
+    /// `texels` [bytes()]: for each probe the coefficients of incident light, then the visibility of the sun,
+    /// 0..1. Texels that belong to no brick are not changed. `threads`: number of threads; 0: all hardware
+    /// threads.
     void update(std::span<const glm::vec4> constants, std::span<std::byte> texels, int threads = 0) const;
-    /// Writes the texels of probes [first, last), to spread the work over threads or frames.
+    /// Computes, like `update`, only the texels of the probes with indices first .. last - 1, in the calling
+    /// thread. The caller can spread the probes over threads or frames. Requires last <= probes().
     void update_probes(std::span<const glm::vec4> constants, std::size_t first, std::size_t last,
                        std::span<std::byte> texels) const;
 
@@ -62,9 +73,9 @@ private:
     VolumeAtlas atlas_;
     ClusterLighting constants_;
     std::vector<ClusterLayout> clusters_;
-    std::vector<float> direct_;               ///< [rows / outputs][order²] of output 0
+    std::vector<float> direct_; ///< [rows / outputs][order²] `direct` coefficients of output 0, grey
     std::vector<std::uint32_t> first_texels_; ///< [probes + 1] first entry of each probe in `texels_`
-    std::vector<std::uint32_t> texels_;       ///< texels of each probe, probe after probe
+    std::vector<std::uint32_t> texels_; ///< indices of the texels of each probe in a plane, probe by probe
 };
 
 } // namespace prt

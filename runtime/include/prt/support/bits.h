@@ -1,6 +1,7 @@
 #pragma once
 
-// Bit fields of up to 32 bits in a byte array, lowest bit first. Experimental.
+// Reading and writing of bit fields of up to 32 bits in a byte array. Fields follow each other without gaps,
+// lowest bit first, from the lowest bit of each byte. Experimental.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,10 +10,10 @@
 
 namespace prt {
 
-/// Writes bit fields.
+/// Writes bit fields to a byte array that it owns and that grows as needed.
 class BitWriter {
 public:
-    /// Appends the lowest `width` bits of `value`, width <= 32.
+    /// Appends the lowest `width` bits of `value`, lowest bit first; 0 <= width <= 32.
     void write(std::uint32_t value, int width) {
         for (int b = 0; b < width; ++b, ++position_) {
             if (position_ % 8 == 0)
@@ -21,6 +22,8 @@ public:
                 bytes_.back() |= std::byte{1} << static_cast<int>(position_ % 8);
         }
     }
+    /// Moves the bytes written so far to the caller. Unused high bits of the last byte are 0. The writer must
+    /// not be used afterwards.
     std::vector<std::byte> take() { return std::move(bytes_); }
 
 private:
@@ -28,13 +31,16 @@ private:
     std::size_t position_ = 0;
 };
 
-/// Reads bit fields.
+/// Reads the bit fields that `BitWriter` wrote, from first to last.
 class BitReader {
 public:
+    /// Starts at the lowest bit of the first byte. Keeps a reference to `bytes`, which must outlive the
+    /// reader.
     explicit BitReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
-    /// Returns whether `width` bits are left.
+    /// Returns whether at least `width` >= 0 unread bits are left.
     bool has(int width) const { return position_ + static_cast<std::size_t>(width) <= bytes_.size() * 8; }
-    /// Reads the next `width` bits, width <= 32; they must exist.
+    /// Returns the next `width` bits as a number, lowest bit first, and moves past them; 0 <= width <= 32.
+    /// The caller must ensure `has(width)`.
     std::uint32_t read(int width) {
         std::uint32_t value = 0;
         for (int b = 0; b < width; ++b, ++position_)

@@ -1,24 +1,27 @@
 #pragma once
 
-// The exceptions of prtkit. Stable.
+// The exceptions that functions of prtkit throw. Stable.
 
 #include <stdexcept>
 #include <string>
 
 namespace prt {
 
-/// Base of all exceptions of prtkit. Thrown where input is checked. The message is one line that a user can
-/// act on; it names the file and the location in it if there is one.
+/// Exception for invalid input and for failed operations, for example on files; base of all exceptions of
+/// prtkit. `what()` is one line that a user can act on. A message about a file names the file and, if known,
+/// the position in the file.
 struct Error : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Thrown by long work after its `std::stop_token` requested a stop. Nothing has been written.
+/// Exception of a long operation, such as a bake, that ended early because a stop was requested from the
+/// `std::stop_token` of its `Progress` (prt/support/progress.h). The operation has then written no file.
 struct Cancelled : Error {
     Cancelled() : Error("cancelled") {}
 };
 
-/// Returns a library's message as one line: line breaks become spaces, trailing ones are removed.
+/// Returns `message`, for example of another library, as one line: removes line feeds and spaces at the end,
+/// and replaces each other line feed by a space.
 std::string one_line(std::string message);
 
 } // namespace prt

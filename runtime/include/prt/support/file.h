@@ -1,6 +1,6 @@
 #pragma once
 
-// Files that are written completely or not at all. Experimental.
+// Reading of whole files, and output files that are written completely or not at all. Experimental.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,59 +11,82 @@
 
 namespace prt {
 
-/// Reads a whole file of up to 4 GB, or a pipe of up to 1 GB. Throws `Error` with the path if the file is
-/// larger, empty or not readable.
+/// Returns the bytes of a whole file of at most 4 GB, or of a pipe of at most 1 GB (1 GB = 2^30 bytes).
+/// Throws `Error` with the path if the file is larger, is empty, cannot be read, or is neither a regular file
+/// nor a pipe.
 std::vector<std::byte> read_file(const std::filesystem::path& path);
 
-/// Returns the path that writing to `path` reaches: symbolic links are followed, also to a target that does
-/// not exist yet. A link to an open descriptor, such as /dev/stdout, is kept, because there is no path behind
-/// it.
+/// Returns the path of the file that a write to `path` changes: follows symbolic links, even if the last
+/// target does not exist yet. Returns `path` unchanged if it is not a link. Stops at the path of an open
+/// descriptor, such as /proc/self/fd/1 to which /dev/stdout links, at a link that cannot be read, and after
+/// 40 links. Throws no `Error`.
 std::filesystem::path followed(std::filesystem::path path);
 
-/// A file that appears under its name only when it is complete. Until then it has no name, if the system
-/// supports that. Otherwise it is a hidden file in the same folder; if the process is killed, the next writer
-/// removes it. A link is followed, not replaced. A target that is not a regular file (a pipe, /dev/null,
-/// /dev/stdout) gets the bytes on `publish`.
+/// An output file that appears under its path only when it is complete: call `write`, then `commit`; or
+/// `finish`, `publish` and `keep` separately, to publish several files together. Until `publish` the data is
+/// in a file without a name, or, if the system does not support that, in a hidden file in the same folder; if
+/// the process is killed, the next `OutputFile` for the same path removes the hidden file. A symbolic link is
+/// followed, not replaced. A target that exists and is not a regular file (a pipe, /dev/null, /dev/stdout)
+/// receives all bytes in `publish`.
 class OutputFile {
 public:
-    /// Throws `Error` if the path cannot be written: missing folder, no permission, or the path is a folder.
+    /// Prepares to write to `path`; does not change an existing file. Throws `Error` if `path` cannot be
+    /// written: its folder is missing, permission is missing, or the path is that of a folder.
     explicit OutputFile(std::filesystem::path path);
-    /// Without `keep`, removes the new file and leaves the old one unchanged.
+    /// If `keep` was not called: removes the new file, and restores the file that `publish` replaced, unless
+    /// `publish` replaced it permanently. Bytes that `publish` wrote to a stream remain written.
     ~OutputFile();
     OutputFile(const OutputFile&) = delete;
     OutputFile& operator=(const OutputFile&) = delete;
 
-    /// The path as passed to the constructor.
+    /// The path as passed to the constructor, before links are followed.
     const std::filesystem::path& path() const { return path_; }
-    /// Returns whether written data cannot be withdrawn: a pipe, a device, an open descriptor.
+    /// Returns whether the target is a pipe, a device or an open descriptor. Data that `publish` writes to
+    /// such targets cannot be withdrawn.
     bool is_stream() const { return stream_; }
-    /// Appends data. Throws `Error` if the disk is full.
+    /// Appends `bytes`. Throws `Error` if the write fails, for example because the disk is full. Must not be
+    /// called after `publish`.
     void write(std::span<const std::byte> bytes);
+    /// Appends the characters of `text` as bytes. Throws `Error` if the write fails, for example because the
+    /// disk is full. Must not be called after `publish`.
     void write(std::string_view text) { write(std::as_bytes(std::span(text))); }
-    /// Number of bytes written.
+    /// Returns the number of bytes that all calls of `write` have appended. Throws `Error` if the system does
+    /// not report it.
     std::uintmax_t size() const;
 
-    /// Flushes to disk. Throws `Error` on failure.
+    /// Flushes the written data to disk; does nothing if `is_stream()`. Throws `Error` on failure. Must be
+    /// called before `publish`.
     void finish();
-    /// Publishes the file under its name. A previous file with this name is set aside, and restored unless
-    /// `keep()` follows.
+    /// Publishes the file under its path; writes all bytes to the target if `is_stream()`. A previous file
+    /// with this path is kept under a hidden name; the destructor restores the previous file unless `keep` is
+    /// called. If the file system cannot exchange two files, the previous file is replaced permanently.
+    /// Throws `Error` on failure.
     void publish();
-    /// Accepts the published file and removes the old one.
+    /// Makes the published file permanent: removes the previous file that `publish` kept under a hidden name.
+    /// Must be called after `publish`.
     void keep() noexcept;
-    /// Calls finish, publish and keep.
+    /// Calls `finish`, `publish` and `keep`. Throws `Error` on failure.
     void commit();
-    /// Removes the hidden name of an unpublished file; for a process that is about to end.
+    /// Deletes the hidden file of unpublished data, if there is one. For a process that is interrupted and
+    /// runs no destructors; the file cannot be published afterwards.
     void remove_name() const noexcept;
 
 private:
-    enum class Stage { written, created, replaced, kept };
+    enum class Stage {
+        written,  ///< before `publish`
+        created,  ///< published; no previous file existed
+        replaced, ///< published; a previous file was replaced
+        kept      ///< permanent
+    };
     [[noreturn]] void fail(int error) const;
     void open();
     void link_beside();
     void pour();
     std::filesystem::path path_, target_; ///< path as passed in; path after following links
-    std::filesystem::path unnamed_;       ///< path to open the file while it has no name
-    std::filesystem::path beside_;        ///< its hidden name, or that of the old file; may be empty
+    std::filesystem::path unnamed_;       ///< /proc/self/fd/N of the file; empty if it has a hidden name
+    /// Before `publish`: hidden name of the new file, or empty. After `publish`: hidden name of the previous
+    /// file; empty if it cannot be restored.
+    std::filesystem::path beside_;
     int descriptor_ = -1;
     bool stream_ = false;
     Stage stage_ = Stage::written;

@@ -1,7 +1,8 @@
 #pragma once
 
-// Checks the layout of GLM's types in each program that includes the headers. With other GLM settings the
-// program would link but read memory with the wrong layout. Stable.
+// Compile-time checks of the size, alignment and member order of GLM's types in each program that includes
+// prtkit's headers. With other GLM settings the program would link, but read memory with the wrong layout.
+// Stable.
 
 #include <glm/ext/quaternion_double.hpp>
 #include <glm/mat3x3.hpp>

@@ -1,7 +1,8 @@
 #pragma once
 
-// Parses JSON into trees that keep the order of keys, in time proportional to the length of the text. The
-// parser of nlohmann-json compares each key with all keys before it. Not part of the interface.
+// Parses JSON into trees of nlohmann-json that keep the order of keys. The time is n log n for an object of n
+// keys; the parser of nlohmann-json takes n², because it compares each key with all keys before it. Not part
+// of the interface.
 
 #include <algorithm>
 #include <cstddef>
@@ -13,13 +14,16 @@
 
 namespace prt {
 
-/// Builds a tree of `Json`, an nlohmann::ordered_json, from the events of its parser. A repeated key keeps
-/// its first position and gets its last value, as in the parser of nlohmann-json.
+/// Receives the events of `Json::sax_parse` and builds the tree of the text. `Json` is
+/// nlohmann::ordered_json. A key that an object repeats is stored once, at its first position with its last
+/// value, as `Json::parse` stores it.
 template <class Json>
 class JsonTreeBuilder {
 public:
+    /// Moves the tree to the caller. Must be called once, after `Json::sax_parse` has returned.
     Json take() { return std::move(root_); }
 
+    // The interface of nlohmann-json's `json_sax`. Each event adds to the tree; true: the parser continues.
     bool null() { return add(Json(nullptr)); }
     bool boolean(bool value) { return add(Json(value)); }
     bool number_integer(typename Json::number_integer_t value) { return add(Json(value)); }
@@ -45,9 +49,10 @@ public:
 
 private:
     using Object = typename Json::object_t;
+    /// An object or array that the parser has not ended yet.
     struct Level {
-        Json value;
-        std::string key = {}; ///< key of the next member
+        Json value;           ///< the object or array, with the members or elements so far
+        std::string key = {}; ///< key of the next member of an object
     };
 
     bool add(Json&& value) {
@@ -104,11 +109,12 @@ private:
         object.swap(kept);
     }
 
-    Json root_;
-    std::vector<Level> open_;
+    Json root_;               ///< the tree; set when its outermost value ends
+    std::vector<Level> open_; ///< from the outermost object or array to the innermost
 };
 
-/// Returns the tree of `text`. Throws the exceptions of `Json::parse`.
+/// Returns the tree of the JSON document `text`. Throws what `Json::parse` throws: `Json::parse_error` for
+/// invalid JSON, `Json::out_of_range` for a number that does not fit into a double.
 template <class Json>
 Json parse_json_tree(std::string_view text) {
     JsonTreeBuilder<Json> builder;

@@ -1,6 +1,7 @@
 #pragma once
 
-// Detection of Git LFS pointers: small files that replace files which were not fetched.
+// Detection of Git LFS pointers: small text files that a checkout contains instead of large files that Git
+// LFS has not fetched.
 
 #include <cstddef>
 #include <cstring>
@@ -9,14 +10,15 @@
 
 namespace prt {
 
-/// Returns whether a file is a Git LFS pointer ("Git LFS Specification", the pointer's first line).
+/// Returns whether `file`, the bytes of a file, begins with the first line of a Git LFS pointer ("Git LFS
+/// Specification").
 inline bool is_lfs_pointer(std::span<const std::byte> file) {
     constexpr std::string_view kFirstLine = "version https://git-lfs.github.com/spec/";
     return file.size() >= kFirstLine.size() &&
            std::memcmp(file.data(), kFirstLine.data(), kFirstLine.size()) == 0;
 }
 
-/// Message for the user after the name of such a file.
+/// Message of the `Error` for a file that is a Git LFS pointer; the name of the file precedes it.
 inline constexpr const char* kLfsRemedy =
     "is a Git LFS pointer, not the file itself; fetch the file with git lfs pull";
 

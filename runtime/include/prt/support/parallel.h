@@ -1,19 +1,21 @@
 #pragma once
 
-// Loops over several threads. Experimental.
+// Loops that run on several threads. Experimental.
 
 #include <cstddef>
 #include <functional>
 
 namespace prt {
 
-/// Returns the number of threads to use: `requested`, or the number of hardware threads if it is 0.
+/// Returns the number of threads to use: `requested` if it is positive, else the number of hardware threads
+/// of the processor (at least 1).
 int thread_count(int requested);
 
-/// Calls `body(begin, end)` for consecutive blocks of at most `grain` indices that together cover [0, count),
-/// on `threads` threads (0: all). Blocks start at multiples of `grain`, so that results stored per block do
-/// not depend on the number of threads. The first exception that `body` throws is rethrown here after all
-/// threads have stopped.
+/// Calls `body(begin, end)` once for each block of indices [begin, end). The blocks cover [0, count); each
+/// starts at a multiple of `grain` > 0 and has `grain` indices, the last one possibly fewer. Uses `threads`
+/// threads including the calling one (0 or less: all hardware threads), which call `body` concurrently and in
+/// no fixed sequence. Returns when all calls have returned. If `body` throws, no further block is started,
+/// and the first exception is rethrown after all threads have stopped.
 void parallel_for(std::size_t count, std::size_t grain, int threads,
                   const std::function<void(std::size_t begin, std::size_t end)>& body);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Foreign text in messages. Experimental.
+// Escaping of text from files and users for messages. Experimental.
 
 #include <cstddef>
 #include <string>
@@ -8,9 +8,10 @@
 
 namespace prt {
 
-/// Returns text from a file or a user in a form that is safe for a terminal and a log. UTF-8 is kept. Control
-/// characters, invisible characters, characters that change the writing direction, and bytes that are not
-/// UTF-8 become escapes (\x1b, \u202e). Text of more than `max_bytes` is truncated.
+/// Returns `text` in a form that is safe for a terminal and a log. Visible UTF-8 characters and spaces are
+/// kept. Control characters (including line breaks and tabs), invisible characters, characters that change
+/// the writing direction, and bytes that are not valid UTF-8 become escapes such as \x1b and \u202e. If the
+/// result becomes longer than `max_bytes` before the text ends, " ..." replaces the rest of the text.
 std::string printable(std::string_view text, std::size_t max_bytes = 1000);
 
 } // namespace prt

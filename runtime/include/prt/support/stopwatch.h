@@ -1,15 +1,16 @@
 #pragma once
 
-// Wall time. Experimental.
+// Measurement of wall time. Experimental.
 
 #include <chrono>
 
 namespace prt {
 
-/// Measures the seconds since its construction with a monotonic clock.
+/// Measures the wall time since its construction with a monotonic clock, which changes of the system time do
+/// not affect.
 class Stopwatch {
 public:
-    /// Returns the seconds since the construction.
+    /// Returns the wall time since the construction of this stopwatch, in seconds.
     double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
 private:
