@@ -190,8 +190,9 @@ struct BakeStatistics {
     };
     /// Numbers of receivers.
     struct Receivers {
-        std::size_t all = 0;        ///< receivers of the scene, which are its vertices
-        std::size_t traced = 0;     ///< receivers of the scene on a surface; the others have zero transfer
+        std::size_t all = 0;    ///< receivers of the scene, which are its vertices
+        std::size_t traced = 0; ///< receivers of the scene with an area, from which rays were traced; the
+                                ///< others take the transfer of a receiver at the same position, or are dark
         std::size_t back_sides = 0; ///< additional receivers on back sides of surfaces that scatter light on
                                     ///< both sides; the result does not contain them
         std::size_t sealed = 0;     ///< receivers inside solid geometry, where no light arrives
