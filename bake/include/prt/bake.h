@@ -40,7 +40,7 @@ inline constexpr int kMaxRays = 1 << 24; ///< maximum number of rays per receive
 /// Assigns a medium to materials of the scene.
 struct MediumChoice {
     std::string material; ///< name of the materials that get the medium; empty: all materials
-    Medium medium;        ///< medium inside the surfaces with these materials
+    Medium medium;        ///< medium inside the surfaces with these materials, coefficients in 1/m
 };
 
 /// Settings of subsurface scattering.
@@ -78,8 +78,9 @@ struct LampOptions {
     /// Radius of point lights and spot lights in metres, at least 0. A larger radius makes their shadows
     /// softer; 0: hard shadows.
     double radius = 0;
-    /// Number of rays from a receiver to the emissive surfaces of a lamp term, and number of rays to its
-    /// point and spot lights with a radius; 1..kMaxRays. A light without a radius gets one ray.
+    /// Approximate number of rays, 1..kMaxRays, from a receiver to all emissive surfaces of a lamp term, and
+    /// the same number to all its point and spot lights together if `radius` is greater than 0. A light
+    /// without extent gets one ray.
     int rays = 64;
 };
 
@@ -121,12 +122,12 @@ struct BakeErrors {
         std::string name; ///< name of the lamp or of its group
         Error error;      ///< error relative to the light of this lamp
     };
-    /// Errors at the points of one node of the file. The members have the meanings of those of `BakeErrors`,
-    /// but are relative to the light at the points of the node.
+    /// Errors at the points of one node of the file. `Error::relative_l2` is relative to the light at the
+    /// points of this node, `Error::of_scene` to the light at the points of the whole scene.
     struct Node {
         std::string name; ///< name of the node
-        /// `sky`: all light of the sky; `lamps`: all lamps; `backs`, `backs_by_lamps`: light of the sky and
-        /// of lamps on back sides.
+        /// `sky`: error of all light of the sky; `lamps`: error of the terms of all lamps together; `backs`,
+        /// `backs_by_lamps`: errors of the light of the sky and of lamps on back sides, as in `BakeErrors`.
         Error sky, lamps, backs, backs_by_lamps;
         std::size_t points = 0; ///< number of points on the node
     };
@@ -227,15 +228,15 @@ struct BakeStatistics {
     /// Share of a uniform sky's light that arrives without bounces, 0..1: mean over the receivers, weighted
     /// by area, of T_0 / Y_00. T_0 is the first coefficient of direct light, Y_00 the constant SH function.
     double mean_visibility = 0;
-    /// Estimated relative L2 error of the transfer by noise of rays. It applies to all light of the sky
-    /// behind the noise filter if BakeNoise::filtered, otherwise to direct light of the sky. 0 for
+    /// Estimated relative L2 error of the transfer by noise of rays. It applies to all light of the sky after
+    /// the noise filter if BakeNoise::filtered, otherwise to direct light of the sky. 0 for
     /// BakeMethod::raster, whose error is not estimated.
     double sampling_error = 0;
     double rounding_error = 0; ///< relative L2 error that storing the transfer as float16 causes; computed
                                ///< for both number formats
-    /// Estimated energy of the bounces that were not computed: the largest norm of such a transfer vector,
-    /// relative to the largest norm of a baked transfer vector. For endless bounces the estimated error of
-    /// the sum over all bounces, relative to its largest coefficient.
+    /// Light of the bounces that were not computed, estimated as a geometric series: the largest norm of its
+    /// transfer vectors, relative to the largest norm of the baked transfer vectors. For kEndlessBounces: the
+    /// estimated error of the sum over all bounces, relative to the largest coefficient.
     double remaining_energy = 0;
     Lamps lamps;
     Gather gather;

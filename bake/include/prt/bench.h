@@ -37,9 +37,12 @@ struct BenchRun {
     double seconds = 0, seconds_build = 0;
     TraceSeconds stages;        ///< wall-clock time of the stages of tracing
     double rays_per_second = 0; ///< traced rays divided by `seconds`
-    double relative_l2 = 0; ///< relative L2 error against the reference, at BenchResult::reference_receivers
-    double contrast = 0;    ///< `transfer_contrast` against the reference, at the same receivers
-    /// Relative L2 error of the transfer interpolated between vertices, at BenchResult::surface_points.
+    double relative_l2 =
+        0; ///< relative L2 error of the transfer against the reference, over the receivers of the reference
+    double contrast =
+        0; ///< `transfer_contrast` of the transfer against the reference, over the receivers of the reference
+    /// Relative L2 error over the surface: error of the transfer interpolated between vertices, at points
+    /// with separate reference rays (BenchResult::surface_points).
     double surface_l2 = 0;
 };
 

@@ -38,7 +38,9 @@ public:
     /// Returns the probability density with which `sample` chooses unit direction `direction`, per steradian;
     /// 0 if the whole environment is black.
     float density(const glm::vec3& direction) const;
+    /// Returns the suns that were passed to the constructor.
     const std::vector<Sun>& suns() const { return suns_; }
+    /// Returns the environment that was passed to the constructor.
     const Image& environment() const { return environment_; }
 
 private:

@@ -25,10 +25,11 @@ inline constexpr std::size_t kErrorCauses = 5;
 /// Returns the name in reports: "light", "bounces", "vertices", "rays" or "bytes".
 const char* to_string(ErrorCause cause);
 
-/// Level to which squared errors of radiance are relative. Levels include direct light of suns that the
+/// Value by which squared errors of exit radiance are divided. It includes direct light of suns that the
 /// renderer adds.
 enum class BudgetMeasure {
-    /// Mean squared exit radiance over the area of the surface. The three channels have equal weights.
+    /// The mean of the squared exit radiance over the area of the surface. The three channels have equal
+    /// weights.
     relative,
     /// (Y + Y_a)² at each point, for contrast errors (docs/math.md, eq. 33b). Y is the luminance of the
     /// exit radiance at the point, Y_a a tenth of the logarithmic mean luminance of the surface. Squared
@@ -36,8 +37,8 @@ enum class BudgetMeasure {
     visible,
 };
 
-/// Squared error relative to the level of a `BudgetMeasure`. The estimate is unbiased, and can be negative if
-/// the true value is near zero.
+/// Squared error divided by the value of a `BudgetMeasure`, as an area-weighted mean over the surface. The
+/// estimate is unbiased, and can be negative if the true value is near zero.
 struct SquaredError {
     /// `value`: the estimate; `low`, `high`: its 95 % confidence interval over the random choice of points
     /// and paths. All are 0 if the surface is not lit.
@@ -56,7 +57,9 @@ struct ErrorBudget {
     SquaredError together;
     SquaredError total; ///< squared error of all causes at once, measured independently of `causes`
 
+    /// Returns the entry of `causes` for `cause`.
     SquaredError& of(ErrorCause cause) { return causes[static_cast<std::size_t>(cause)]; }
+    /// Returns the entry of `causes` for `cause`.
     const SquaredError& of(ErrorCause cause) const { return causes[static_cast<std::size_t>(cause)]; }
     /// Returns the sum of the values of `causes`.
     double sum() const;
@@ -83,19 +86,19 @@ ErrorBudget error_budget(const SurfacePoints& points, const SurfaceRadiance& ref
                          const BandTruncation& cut, const InterpolatedRadiance& radiance,
                          BudgetMeasure measure = BudgetMeasure::relative);
 
-/// Returns the squared error that the order of `cut` causes in light with all bounces, as
+/// Returns the squared error that the order of `cut` causes in light with all bounces, relative as in
 /// BudgetMeasure::relative. The bounces of `cut` are ignored. `reference` must be traced at `points`.
 SquaredError light_error(const SurfacePoints& points, const SurfaceRadiance& reference,
                          const BandTruncation& cut);
-/// Returns the squared error that the limited number of bounces of `cut` causes in the SH bands of `cut`, as
-/// BudgetMeasure::relative. `reference` must be traced at `points`.
+/// Returns the squared error that the limited number of bounces of `cut` causes in the SH bands of `cut`,
+/// relative as in BudgetMeasure::relative. `reference` must be traced at `points`.
 SquaredError bounces_error(const SurfacePoints& points, const SurfaceRadiance& reference,
                            const BandTruncation& cut);
 
-/// Returns the squared interpolation error, as BudgetMeasure::relative, that would remain if all triangles
-/// were split at the midpoints of their edges and the light at all corners were exact. `quarters`: corners of
-/// the smaller triangles at `points`. `corners`: radiance traced at `quarters.corners` [3 per point];
-/// `reference`: radiance traced at `points`.
+/// Returns the squared interpolation error, relative as in BudgetMeasure::relative, that would remain if all
+/// triangles were split at the midpoints of their edges and the light at all corners were exact. `quarters`:
+/// corners of the smaller triangles at `points`. `corners`: radiance traced at `quarters.corners` [3 per
+/// point]; `reference`: radiance traced at `points`.
 SquaredError split_error(const SurfacePoints& points, const SurfaceRadiance& reference,
                          const QuarterCorners& quarters, const SurfaceRadiance& corners,
                          const BandTruncation& cut);

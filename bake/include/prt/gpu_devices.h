@@ -11,8 +11,8 @@ namespace prt {
 /// Method by which a GPU finds the surfaces that rays hit.
 enum class Traversal {
     automatic, ///< `device` if the GPU supports ray queries, otherwise `compute`
-    device,    ///< ray queries: the ray-tracing hardware or driver of the GPU searches its own hierarchy
-    compute,   ///< compute shaders of prtkit search a hierarchy that prtkit builds
+    device,    ///< ray queries of Vulkan: the driver builds and searches the hierarchy of triangles
+    compute,   ///< compute shaders of prtkit search a hierarchy of triangles that prtkit builds
 };
 
 /// A Vulkan device that a bake may run on.

@@ -40,11 +40,12 @@ struct IncidentOptions {
 };
 
 /// Returns two estimates of the incident light at `positions` (metres, in the frame of Scene::origin) from
-/// independent random numbers. Each is SH coefficients of radiance, [positions][order²], linear Rec. 709;
-/// `order` is 1..kMaxIncidentOrder. Multiply the errors against both estimates instead of squaring one error:
-/// the mean then has no noise of the estimates. The light contains all light of lamps, and distant light
-/// except direct light of suns that the renderer adds. Surfaces scatter as in `PathTracer`; light bounces
-/// without a limit. Throws `Cancelled` after a stop request.
+/// independent random numbers. Each estimate is SH coefficients of incident radiance, [positions][order²],
+/// linear Rec. 709; `order` must be in 1..kMaxIncidentOrder. To measure a squared error, multiply the error
+/// against one estimate by the error against the other: the mean of the product has no noise of the
+/// estimates. The light contains all light of lamps, and distant light except direct light of suns that the
+/// renderer adds. Surfaces scatter as in `PathTracer`; light bounces without a limit. Throws `Cancelled`
+/// after a stop request.
 std::array<std::vector<glm::vec3>, 2> incident_reference(const TraceScene& scene,
                                                          const std::vector<glm::vec3>& positions, int order,
                                                          const ReferenceLight& light,

@@ -16,8 +16,8 @@ struct InstanceBakeOptions {
     /// Maximum number of samples of each instance, at least 8. Samples are receivers that are traced in the
     /// surroundings of the instance; the factors of the instance are fitted to their light.
     int samples = 256;
-    /// Number of rays of a sample, relative to BakeOptions::rays; greater than 0 and at most 1. At least 16
-    /// rays are traced.
+    /// Number of rays of a sample as a fraction of BakeOptions::rays, greater than 0 and at most 1. At least
+    /// 16 rays are traced.
     double rays = 0.0625;
     /// Lightings under which errors are measured in addition to five built-in soft skies. They must not have
     /// lamps, and must have at least the order of the bake.
@@ -58,8 +58,8 @@ struct InstanceBake {
     BakedTransfer baked;       ///< transfer of the receivers of InstanceScene::stored
     StoredInstances instances; ///< factors of the instances, and boxes of the meshes
     /// [instances] relative L2 error of exit radiance at the samples of the instance, without the noise of
-    /// their rays. The error is the maximum over the five soft skies taken together, and each of
-    /// InstanceBakeOptions::lights.
+    /// their rays. The value is the maximum of the error over the five soft skies together, and of the errors
+    /// under each of InstanceBakeOptions::lights.
     std::vector<double> errors;
     InstanceStatistics statistics;
 };

@@ -15,14 +15,15 @@
 
 namespace prt {
 
-/// A point of a coarser level, and the point of level 0 whose light it should show.
+/// A first point, on a coarser level, and a second point, on level 0, whose light the first point should
+/// show.
 struct LevelSample {
-    /// Corners of a triangle, as receivers of the scene with all levels. `at`: triangle of the coarser level
-    /// with the point; `from`: triangle of level 0 with the other point.
+    /// Corners of a triangle, as receivers of the scene with all levels. `at`: the triangle of the coarser
+    /// level that contains the first point; `from`: the triangle of level 0 that contains the second point.
     std::array<std::uint32_t, 3> at, from;
-    /// Barycentric coordinates of the point in triangle `at` (`shares`), and of the other point in triangle
-    /// `from` (`from_shares`). All `from_shares` are 0 if level 0 has no suitable point; the sample should
-    /// then be dark.
+    /// Barycentric coordinates. `shares`: of the first point in triangle `at`; `from_shares`: of the second
+    /// point in triangle `from`. All `from_shares` are 0 if level 0 has no suitable point; the coarser level
+    /// should then be dark at the first point.
     std::array<float, 3> shares, from_shares;
     float area = 0; ///< area of the coarser level in m² that the sample represents
 };
@@ -33,8 +34,8 @@ struct LevelSamples {
     /// Distance from the samples to their points on level 0 in metres: root mean square weighted by area, and
     /// maximum.
     double rms_distance = 0, largest_distance = 0;
-    /// Diagonal in metres of the bounding box of level 0; if several nodes of the file form level 0, of the
-    /// largest of them.
+    /// Diagonal of the bounding box of level 0, metres. If level 0 consists of several nodes of the file: the
+    /// largest of their diagonals.
     double diagonal = 0;
 };
 
@@ -45,8 +46,9 @@ struct LevelOptions {
 };
 
 /// Throws `Error` if the root mean square distance of a coarser level from level 0 exceeds a quarter of
-/// LevelSamples::diagonal: such a level cannot show the light of level 0. Uses few samples; call this
-/// function before a bake, because `carry_levels` and `sample_level` make the same check later.
+/// LevelSamples::diagonal: such a level cannot show the light of level 0. Uses few samples. Call this
+/// function before a bake to find the error early: `carry_levels` and `bake_levels` check the distances after
+/// the bake. Throws `Cancelled` after a stop request.
 void check_levels(const LeveledScene& scene, const LevelOptions& options = {}, const Progress& progress = {});
 
 /// Returns samples spread over `level` of `node`, each with its point on level 0. Throws the errors of
@@ -65,16 +67,16 @@ struct LevelSquares {
     LevelSquares& operator+=(const LevelSquares& other);
 };
 
-/// Returns the squared error of a coarser level against level 0 at `samples`. Both `finest` and `level` are
-/// interleaved values of all receivers of the scene with its levels, [receivers][columns]: the receivers of
-/// level 0 are read from `finest`, those of the coarser level from `level`. `column_weights` [columns]:
-/// factors on the squares of each column.
+/// Returns the squared error of a coarser level against level 0 at `samples`. `finest` and `level` contain
+/// values of all receivers of the scene with its levels, [receivers][columns]. The function reads receivers
+/// of level 0 from `finest`, and receivers of the coarser level from `level`. It multiplies the squares of
+/// column i by column_weights[i].
 LevelSquares level_error(const LevelSamples& samples, std::span<const float> finest,
                          std::span<const float> level, std::span<const float> column_weights);
 /// Returns the squared error of the transfer of a coarser level against level 0 at `samples`. `finest` and
-/// `level` have the same layout and contain all receivers of the scene with its levels: the receivers of
-/// level 0 are read from `finest`, those of the coarser level from `level`. A term with one channel counts
-/// for all channels of the layout, as in `relative_l2`.
+/// `level` have the same layout and contain all receivers of the scene with its levels. The function reads
+/// receivers of level 0 from `finest`, and receivers of the coarser level from `level`. A term with one
+/// channel counts for all channels of the layout, as in `relative_l2`.
 LevelSquares level_error(const LevelSamples& samples, const Transfer& finest, const Transfer& level);
 
 /// Result for one level of one node.
@@ -93,9 +95,9 @@ struct LevelBake {
     /// Transfer of all receivers of the scene with its levels. The first receivers, those of level 0, have
     /// the transfer that the caller passed.
     Transfer transfer;
-    std::vector<LevelOutcome>
-        levels;         ///< one result per coarser level, node by node, in the order of LeveledNode::coarser
-    double seconds = 0; ///< wall-clock time in seconds
+    /// One result per coarser level, node by node, in the order of LeveledNode::coarser.
+    std::vector<LevelOutcome> levels;
+    double seconds = 0;               ///< wall-clock time in seconds
     std::vector<std::string> notices; ///< problems that do not prevent the result, one line each
 };
 

@@ -36,8 +36,8 @@ private:
 /// the suns at visible surfaces; 0 if the model covers no pixel. `scene` must be built from `*picture.scene`.
 float sun_luminance(const Picture& picture, const TraceScene& scene);
 
-/// Returns the factor on radiance that maps `luminance` to 0.22, a little brighter than middle grey (0.18); 1
-/// if `luminance` is not greater than 0.
+/// Returns the exposure, a factor on radiance, that maps `luminance` to 0.22, a little brighter than middle
+/// grey (0.18); 1 if `luminance` is not greater than 0.
 float exposure_for(float luminance);
 
 } // namespace prt

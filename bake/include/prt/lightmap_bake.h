@@ -23,8 +23,8 @@ struct LightmapStatistics {
                                    ///< neighbouring texels; 0 with Inside::keep
     };
     Texels texels;
-    /// Number of vertices between which light bounces: vertices of the scene with their back sides, and
-    /// vertices that were added between them; 0 without bounces.
+    /// Number of vertices between which light bounces: vertices of the scene (of the finer model, if there is
+    /// one), their back sides, and vertices that were added between them; 0 without bounces.
     std::size_t sources = 0;
     std::size_t rays = 0; ///< number of all traced rays
     std::string device;   ///< name of the device that traced the rays, for reports
@@ -38,7 +38,7 @@ struct LightmapStatistics {
     /// by area, of T_0 / Y_00. T_0 is the first coefficient of direct light, Y_00 the constant SH function.
     double mean_visibility = 0;
     /// Estimated relative L2 error of the transfer by noise of rays. If `denoised`, it applies to all light
-    /// of the sky behind the noise filter, otherwise to direct light of the sky.
+    /// of the sky after the noise filter, otherwise to direct light of the sky.
     double sampling_error = 0;
     bool denoised = false;     ///< true: the noise filter was applied
     double rounding_error = 0; ///< relative L2 error that storing the transfer as float16 causes; computed

@@ -15,7 +15,7 @@ namespace prt {
 /// Settings that select a tracer.
 struct TracerChoice {
     Backend backend = Backend::automatic;  ///< hardware that traces rays
-    BakeMethod method = BakeMethod::trace; ///< ray tracing, or depth maps on a GPU
+    BakeMethod method = BakeMethod::trace; ///< ray tracing, or depth maps on a GPU with OpenGL 4.5
     int raster_resolution = 1024;          ///< texels along each side of a depth map, 16..16384; ignored by
                                            ///< BakeMethod::trace
     /// GPU that traces rays with Backend::gpu: its index in gpu_devices(), or a part of its name; empty: the
@@ -23,7 +23,8 @@ struct TracerChoice {
     std::string gpu = {};
     /// Method by which a GPU traces rays. The CPU and depth maps ignore this member.
     Traversal traversal = Traversal::automatic;
-    /// Distance fall-off of occlusion; the default blocks all light at every distance. Depth maps ignore it.
+    /// Distance fall-off of occlusion; the default blocks all light at every distance. Depth maps ignore this
+    /// member, and `bake` throws `Error` for depth maps with another fall-off.
     Falloff falloff = {};
 };
 

@@ -57,7 +57,7 @@ public:
     /// pass.
     Image image() const;
     /// Returns for each pixel whether the ray through its center hits a visible surface, [height][width].
-    /// Back sides of single-sided surfaces and surfaces that block less than half of the light do not count.
+    /// Back sides of single-sided surfaces and surfaces with an opacity below 0.5 do not count.
     std::vector<bool> surface_mask() const;
 
 private:
