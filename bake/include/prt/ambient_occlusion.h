@@ -31,10 +31,10 @@ struct OcclusionOptions {
 
 /// Ambient visibility and bent normals. The arrays are parallel, with one entry per receiver.
 struct AmbientVisibility {
-    /// [receivers] share of a uniform sky's light that arrives, weighted by the cosine, 0..1; 1: nothing is
-    /// occluded.
+    /// [receivers] share of a uniform sky's light that arrives, weighted by the cosine, 0..1; 1: no direction
+    /// is occluded.
     std::vector<float> ambient;
-    /// [receivers] unit vectors: mean unoccluded direction, weighted by the cosine.
+    /// [receivers] unit vectors in the axes of the scene: mean unoccluded direction, weighted by the cosine.
     std::vector<glm::vec3> bent_normals;
 };
 

@@ -202,7 +202,8 @@ struct BakeStatistics {
     /// Wall-clock time of the stages of the bake in seconds.
     struct Seconds {
         double build = 0; ///< time for building acceleration structures; loading textures is not included
-        double fit = 0;   ///< time for fitting vertices to the surface; 0 if it was not measured separately
+        double fit =
+            0; ///< time for fitting vertices to the surface; `bake` does not measure it and leaves it 0
         TraceSeconds tracing; ///< time for tracing rays
         double transport = 0; ///< time for bounces, subsurface scattering and the noise filter
         double all = 0;       ///< total time; loading textures is not included

@@ -19,7 +19,8 @@ struct BenchOptions {
     /// doubles from run to run. For BakeMethod::raster these are numbers of directions.
     int fewest_rays = 64, max_rays = 4096;
     int raster_resolution = 1024; ///< texels along each side of a depth map, for BakeMethod::raster
-    /// GPU for the series with ray tracing on a GPU, as in TracerChoice::gpu; empty: the best device.
+    /// GPU for the series with ray tracing on a GPU: its index in gpu_devices(), or a part of its name;
+    /// empty: the best device.
     std::string gpu = {};
     /// Maximum expected time of a run in seconds, extrapolated from the previous run of its series. A series
     /// ends before a run with a longer expected time.
@@ -37,10 +38,10 @@ struct BenchRun {
     double seconds = 0, seconds_build = 0;
     TraceSeconds stages;        ///< wall-clock time of the stages of tracing
     double rays_per_second = 0; ///< traced rays divided by `seconds`
-    double relative_l2 =
-        0; ///< relative L2 error of the transfer against the reference, over the receivers of the reference
-    double contrast =
-        0; ///< `transfer_contrast` of the transfer against the reference, over the receivers of the reference
+    /// Relative L2 error of the transfer against the reference, over the receivers of the reference.
+    double relative_l2 = 0;
+    /// `transfer_contrast` of the transfer against the reference, over the receivers of the reference.
+    double contrast = 0;
     /// Relative L2 error over the surface: error of the transfer interpolated between vertices, at points
     /// with separate reference rays (BenchResult::surface_points).
     double surface_l2 = 0;
@@ -52,7 +53,7 @@ struct BenchSeries {
     BakeMethod method = BakeMethod::trace;
     bool fitted = false; ///< true: vertex values are fitted to samples of the surface (FitMode::surface)
     Traversal traversal = Traversal::automatic; ///< used for ray tracing on a GPU only
-    std::string device = {};         ///< name of the device, for reports; empty if it is unavailable
+    std::string device = {}; ///< name of the device, for reports; empty if the device is not available
     std::vector<BenchRun> runs = {}; ///< in the order of their numbers of rays; may be empty
     std::string left_out = {}; ///< reason why the series or some of its runs are missing; empty: the series
                                ///< is complete

@@ -1,6 +1,6 @@
 #pragma once
 
-// Distant light that rays evaluate by direction, in exact form. SH lighting approximates such light.
+// Distant light that rays evaluate by direction, in exact form. SH lighting approximates distant light.
 
 #include "prt/environment.h"
 #include "prt/sun.h"
@@ -18,7 +18,7 @@ class DistantLight {
 public:
     /// `environment`: lat-long image with +Y at the top and +Z at the center column (LatLongCenter::z); its
     /// radiance is constant over each texel, as in `project`. An empty image is black. All light of a sun
-    /// comes from its center: split a wide sun into several directional suns.
+    /// comes from its center, and Sun::half_angle is ignored: split a wide sun into several directional suns.
     explicit DistantLight(Image environment, std::vector<Sun> suns = {});
 
     /// A random direction towards the environment, and the light from there.

@@ -13,7 +13,7 @@ namespace prt {
 
 /// Reasons why the light of a model differs from path tracing.
 enum class ErrorCause {
-    light,    ///< the order contains only some SH bands of the light
+    light,    ///< the transfer contains only the SH bands of its order
     bounces,  ///< the bake contains only some bounces
     vertices, ///< light is interpolated between the vertices
     rays,     ///< the bake has noise of rays
@@ -53,7 +53,7 @@ struct ErrorBudget {
     /// [ErrorCause] squared error that the cause would have if it were the only one.
     std::array<SquaredError, kErrorCauses> causes;
     /// Interaction of the causes: `total` minus the sum of `causes`, which is twice the sum of the products
-    /// of their errors. Its `low` and `high` are 0, because its interval is not estimated.
+    /// of the errors of each two causes. `low` and `high` are 0, because this interval is not estimated.
     SquaredError together;
     SquaredError total; ///< squared error of all causes at once, measured independently of `causes`
 

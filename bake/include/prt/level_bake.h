@@ -46,9 +46,9 @@ struct LevelOptions {
 };
 
 /// Throws `Error` if the root mean square distance of a coarser level from level 0 exceeds a quarter of
-/// LevelSamples::diagonal: such a level cannot show the light of level 0. Uses few samples. Call this
-/// function before a bake to find the error early: `carry_levels` and `bake_levels` check the distances after
-/// the bake. Throws `Cancelled` after a stop request.
+/// LevelSamples::diagonal, because a level at this distance cannot show the light of level 0. Uses few
+/// samples. Call this function before a bake to find the error early: `carry_levels` and `bake_levels` check
+/// the distances after the bake. Throws `Cancelled` after a stop request.
 void check_levels(const LeveledScene& scene, const LevelOptions& options = {}, const Progress& progress = {});
 
 /// Returns samples spread over `level` of `node`, each with its point on level 0. Throws the errors of

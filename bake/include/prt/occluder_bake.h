@@ -32,12 +32,12 @@ struct OccluderOptions {
 struct OccluderBake {
     OcclusionVolume volume; ///< volume in the frame of the object
     std::size_t rays = 0;   ///< number of all traced rays
-    /// Mean absolute difference between the blocked fraction of the light by the volume and by rays, 0..1,
-    /// over test receivers. These have random normals and random positions in the box outside the object; the
-    /// fit of the volume does not use these positions.
+    /// Mean absolute error of the blocked fraction of a uniform sky's light, 0..1, by the volume against
+    /// rays, over test receivers. Test receivers have random normals and random positions in the box outside
+    /// the object; the fit of the volume does not use these positions.
     double mean_error = 0;
-    /// Mean blocked fraction of the light of the test receivers by rays, 0..1. A volume that blocks nothing
-    /// would have this error.
+    /// Mean blocked fraction of a uniform sky's light at the test receivers, by rays, 0..1. A volume that
+    /// blocks nothing would have this value as its `mean_error`.
     double mean_blocked = 0;
 };
 

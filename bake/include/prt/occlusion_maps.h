@@ -14,7 +14,7 @@ namespace prt {
 /// Occlusion of one texture.
 struct OcclusionMap {
     Atlas atlas; ///< size of the texture, and the primitives that it covers
-    /// [atlas.height][atlas.width] values of texels, row by row from v = 0 at the top. Texels between charts
+    /// Both arrays are [atlas.height][atlas.width], row by row from v = 0 at the top. Texels between charts
     /// take the values of their neighbours. Texels that no light reaches have the bent normal +Y.
     AmbientVisibility ambient_visibility;
     std::size_t measured = 0; ///< number of texels that charts touch, from which rays were traced

@@ -26,8 +26,8 @@ struct PathTraceOptions {
     /// True: multiply by the base color of visible surfaces; false: show exit radiance for albedo 1.
     bool textured = true;
     bool background = true; ///< true: show the environment behind the scene; false: show black there
-    /// True: show the emission of visible surfaces; false: show only the light that surfaces reflect. Both
-    /// need lamps.
+    /// True: show the emission of visible surfaces that are lamps; false: show only the light that visible
+    /// surfaces reflect.
     bool shining = true;
     /// True: trace rays through random points of each pixel; false: through the center of each pixel.
     bool antialiased = true;
@@ -80,9 +80,9 @@ struct PathTracedPicture {
                                  ///< PathTracer::surface_mask
 };
 
-/// Renders a picture with `paths` paths per pixel, rounded up to an even number, at least 2; each half has
-/// half of them. Uses all threads. The other arguments are those of `PathTracer`. Throws `Cancelled` after a
-/// stop request.
+/// Renders a picture with `paths` paths per pixel, rounded up to an even number, at least 2; half of the
+/// paths belong to each of the two halves. Uses all threads of the machine. The other arguments are those of
+/// `PathTracer`. Throws `Cancelled` after a stop request.
 PathTracedPicture path_traced(const TraceScene& scene, const DistantLight& light,
                               const PathTraceOptions& options, int paths, const SceneLamps* lamps = nullptr,
                               const Progress& progress = {});

@@ -19,7 +19,7 @@ namespace prt {
 /// The world matrices of all nodes at one time.
 struct ModelPose {
     std::string animation;         ///< name of the animation; empty: the pose in the file
-    double seconds = 0;            ///< time since the beginning of the animation in seconds
+    double seconds = 0;            ///< seconds since the beginning of the animation
     std::vector<glm::dmat4> nodes; ///< [AnimatedScene::nodes()] world matrices
 };
 
@@ -90,7 +90,8 @@ struct MeanTransfer {
     int order = 0; ///< order of the transfer
     /// [vertices][order²] mean over the poses in which the vertex is not sealed.
     std::vector<double> vectors;
-    std::vector<double> rest; ///< [vertices][order²] transfer in the first pose
+    /// [vertices][order²] transfer in the first pose, also of vertices that are sealed in this pose.
+    std::vector<double> rest;
     /// [vertices] m²: mean area over the poses, in which a sealed vertex has the area 0. A vertex that is
     /// sealed in all poses has a hundredth of its area in the pose of the file.
     std::vector<float> areas;
@@ -104,11 +105,10 @@ struct MeanTransfer {
     std::size_t vertices() const { return areas.size(); }
 };
 
-/// Bakes all `poses`, of which at least one is necessary, and averages their transfer in the vertex frames.
-/// Poses in which a vertex is sealed (inside solid geometry) do not count for this vertex. A fit to the mean
-/// is a fit to all poses: in the vertex frames, the sum of squared differences to the vectors of all poses is
-/// the squared difference to their mean, times the number of poses, plus a constant. Throws the errors of
-/// `bake_pose`.
+/// Bakes all `poses` (at least one) and averages their transfer in the vertex frames. Poses in which a vertex
+/// is sealed (inside solid geometry) do not count for this vertex. A fit to the mean is a fit to all poses:
+/// in the vertex frames, the sum of squared differences to the vectors of all poses is the squared difference
+/// to their mean, times the number of poses, plus a constant. Throws the errors of `bake_pose`.
 MeanTransfer mean_of_poses(const AnimatedScene& model, std::span<const ModelPose> poses,
                            const PoseBakeOptions& options, const Progress& progress = {});
 
