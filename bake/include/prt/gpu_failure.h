@@ -16,7 +16,7 @@ struct GpuFailure : Error {
 struct GpuLost : GpuFailure {
     using GpuFailure::GpuFailure;
 };
-/// The GPU has too little free memory for its work.
+/// The GPU has too little free memory for its work, or its driver has too little memory of the machine.
 struct GpuMemoryError : GpuFailure {
     using GpuFailure::GpuFailure;
 };

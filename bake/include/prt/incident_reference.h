@@ -25,8 +25,8 @@ struct FreePositions {
 
 /// Returns exactly `count` random positions in the intersection of the box of `grid` and the bounding box of
 /// the scene. A position is inside geometry, and is replaced by another, if more than a quarter of 256 rays
-/// end at back faces. Throws `Error` if more than 20 · `count` attempts are necessary. The result depends
-/// only on the arguments.
+/// end at back sides of single-sided surfaces. Throws `Error` if more than 20 · `count` attempts are
+/// necessary. The result depends only on the arguments.
 FreePositions free_positions_in(const TraceScene& scene, const VolumeGrid& grid, std::size_t count,
                                 std::uint64_t seed);
 
