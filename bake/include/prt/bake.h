@@ -15,218 +15,271 @@
 
 namespace prt {
 
-/// Treatment of receivers that no light can reach because they are inside solid geometry.
+/// Treatment of sealed receivers: receivers that no light can reach because they are inside solid geometry.
 enum class Inside {
-    refill, ///< they take the values of their neighbours, which avoids dark seams where solids meet
-    keep,   ///< keep them dark
+    refill, ///< replace the transfer of sealed receivers by the mean of their neighbours in the mesh, which
+            ///< avoids dark seams where solids meet
+    keep,   ///< leave sealed receivers dark
 };
 
-/// Points of a surface where light is measured.
+/// Points of a surface where a bake measures light.
 enum class FitMode {
     automatic, ///< `surface` if test points between the vertices show that it has a lower error, otherwise
-               ///< `vertex`
-    vertex,    ///< at the vertices
-    surface,   ///< over the surface: vertex values are a least-squares fit of their interpolation to samples
-               ///< between the vertices (Kavan, Bargteil and Sloan 2011)
+               ///< `vertex`; always `vertex` for BakeMethod::raster or with a target error
+    vertex,    ///< measure light at the vertices
+    surface,   ///< measure light at samples between the vertices; vertex values are then a least-squares fit
+               ///< of their interpolation to the samples (Kavan, Bargteil and Sloan 2011)
 };
 
-/// Value for the number of bounces: all bounces, until the remaining light is negligible.
+/// Value for a number of bounces: bounce light until the remaining light is negligible.
 inline constexpr int kEndlessBounces = -1;
 /// Maximum of a finite number of bounces. Endless bounces through media also stop at this number.
 inline constexpr int kMaxBounces = 10000;
 inline constexpr int kMaxRays = 1 << 24; ///< maximum number of rays per receiver
 
-/// Assigns a medium to the materials with the name `material`, or to all materials if it is empty.
+/// Assigns a medium to materials of the scene.
 struct MediumChoice {
-    std::string material;
-    Medium medium;
+    std::string material; ///< name of the materials that get the medium; empty: all materials
+    Medium medium;        ///< medium inside the surfaces with these materials, coefficients in 1/m
 };
 
 /// Settings of subsurface scattering.
 struct SubsurfaceOptions {
-    std::vector<MediumChoice> media; ///< media that replace those of the materials
-    double metres_per_unit = 1;      ///< size of the scene's unit in metres
+    /// Media that replace the media of the scene's materials. If several entries match a material, the last
+    /// one applies. A bake throws `Error` if no material matches an entry.
+    std::vector<MediumChoice> media;
+    /// Length of the scene's unit in metres, finite and greater than 0. It scales the coefficients of all
+    /// media, which are in 1/m.
+    double metres_per_unit = 1;
 };
 
 /// Selects the light of lamps that is baked. Lamps are lights of KHR_lights_punctual and emissive materials.
 enum class LampMode {
-    all,
-    indirect, ///< light after at least one bounce, for renderers that add the direct light of lamps
+    all,      ///< direct light of lamps, and their light after bounces
+    indirect, ///< light of lamps after at least one bounce, for renderers that add the direct light of lamps
               ///< themselves
-    none,
+    none,     ///< no light of lamps: the transfer has no lamp terms
 };
 
-/// Group of lamps that are dimmed together: all lamps whose names match `pattern` (* matches any letters, ?
-/// matches one).
+/// Group of lamps that are dimmed together and share one term of the transfer. A bake throws `Error` if no
+/// lamp belongs to the group.
 struct LampGroup {
+    /// `name`: name of the term, which must differ from the names of lamps outside the group. `pattern`:
+    /// matches whole names of lamps, with regard to case; * matches any number of characters, ? matches one.
     std::string name, pattern;
 };
 
 /// Settings for lamps.
 struct LampOptions {
     LampMode mode = LampMode::all;
-    std::vector<LampGroup> groups; ///< a lamp belongs to the first group that it matches
-    double radius = 0;             ///< radius of point and spot lights in metres; a larger radius makes their
-                                   ///< shadows softer
-    int rays = 64; ///< number of rays from a receiver to all lamps of one name that have an extent
+    /// Groups of lamps. A lamp belongs to the first group whose pattern matches its name. Each other lamp
+    /// name gets its own term. At most kMaxLamps terms are possible.
+    std::vector<LampGroup> groups;
+    /// Radius of point lights and spot lights in metres, at least 0. A larger radius makes their shadows
+    /// softer; 0: hard shadows.
+    double radius = 0;
+    /// Approximate number of rays, 1..kMaxRays, from a receiver to all emissive surfaces of a lamp term, and
+    /// the same number to all its point and spot lights together if `radius` is greater than 0. A light
+    /// without extent gets one ray.
+    int rays = 64;
 };
 
 /// Treatment of faults in a scene, and of noise.
 struct Repairs {
-    BadTextures bad_textures = BadTextures::error;
-    Inside inside = Inside::refill;
-    /// True: filter the light of receivers over the surface, as strongly as its noise requires.
+    BadTextures bad_textures = BadTextures::error; ///< treatment of missing and damaged textures
+    Inside inside = Inside::refill;                ///< treatment of receivers inside solid geometry
+    /// True: filter the light of receivers over the surface, as strongly as its noise requires. Depth maps
+    /// (BakeMethod::raster) and surface fits do not use this filter.
     bool denoise = true;
 };
 
-/// Memory limit, and number format of the result.
+/// Memory limit of a bake, and number format of its result.
 struct BakeMemory {
-    double limit = 0; ///< bytes; 0: memory of the machine or its container
-    /// If empty: float16 if its rounding error is below a tenth of the sampling error, otherwise float32.
+    double limit = 0; ///< limit in bytes, above which a bake throws `Error`; 0: the memory of the machine, or
+                      ///< of its container if that is smaller
+    /// Number format in which files store the transfer. No value: the bake selects float16 if its rounding
+    /// error is below a tenth of the sampling error, otherwise float32.
     std::optional<TransferStorage> storage = {};
 };
 
-/// Relative L2 errors of the transfer that a bake wrote, measured at points over the surface. They include
-/// noise and interpolation of all bounces.
+/// Errors of the transfer that a bake returns, measured at random points over the surface against light that
+/// is traced at these points. The errors contain noise and interpolation of all bounces. Points inside
+/// geometry and on media are excluded.
 struct BakeErrors {
     /// An error with its statistical uncertainty.
     struct Error {
+        /// Square root of the squared error over the squared light, both weighted by area and summed over
+        /// the points; `relative_l2` has the uncertainty `standard_error` (one standard deviation).
         double relative_l2 = 0, standard_error = 0;
-        /// Root mean square error, divided by the root mean square light of the whole scene.
+        /// Root mean square error at these points, divided by the root mean square light at the points of
+        /// the whole scene; 0 if the scene has no light or there are fewer than two points.
         double of_scene = 0;
-        bool known = false; ///< false if there are too few points or no light; `relative_l2` is then 0
+        bool known = false; ///< false if there are fewer than two points, or no light at them; `relative_l2`
+                            ///< and `standard_error` are then 0
     };
+    /// Error of one lamp term.
     struct LampError {
-        std::string name;
-        Error error;
+        std::string name; ///< name of the lamp or of its group
+        Error error;      ///< error relative to the light of this lamp
     };
+    /// Errors at the points of one node of the file. `Error::relative_l2` is relative to the light at the
+    /// points of this node, `Error::of_scene` to the light at the points of the whole scene.
     struct Node {
-        std::string name;
+        std::string name; ///< name of the node
+        /// `sky`: error of all light of the sky; `lamps`: error of the terms of all lamps together; `backs`,
+        /// `backs_by_lamps`: errors of the light of the sky and of lamps on back sides, as in `BakeErrors`.
         Error sky, lamps, backs, backs_by_lamps;
-        std::size_t points = 0;
+        std::size_t points = 0; ///< number of points on the node
     };
-    std::size_t points = 0;
+    std::size_t points = 0; ///< number of points on all surfaces
     Error sky;              ///< error of all light of the sky
-    Error direct, indirect; ///< errors of light without bounces, and of light after bounces; both relative to
-                            ///< all light of a sky
-    Error lamps;            ///< error of the light of all lamps at the strengths of the scene
-    /// Errors of back sides of two-sided surfaces that show the light of their front sides, although direct
-    /// light of the sky (`backs`) or of lamps (`backs_by_lamps`) reaches the back.
+    /// `direct`: error of the sky's light without bounces; `indirect`: error of the sky's light after bounces
+    /// or through media. Both are relative to all light of the sky.
+    Error direct, indirect;
+    Error lamps; ///< error of the terms of all lamps together, each lamp with strength 1
+    /// Errors on back sides of two-sided surfaces, which show the light of their front sides. `backs`: error
+    /// of the light of the sky, at points where direct light of the sky reaches the back. `backs_by_lamps`:
+    /// error of the light of lamps, at points where direct light of lamps reaches the back.
     Error backs, backs_by_lamps;
-    std::vector<LampError> each_lamp = {};
-    std::vector<Node> nodes = {}; ///< in the order of their first primitives
+    std::vector<LampError> each_lamp = {}; ///< [lamp terms] in the order of the terms
+    std::vector<Node> nodes = {};          ///< nodes with at least one point, in the order of their first
+                                           ///< primitives
 };
 
 /// Settings of a bake.
 struct BakeOptions {
-    int order = 6;
-    int rays = 1024;                    ///< rays per receiver; for method raster the number of directions
-    std::optional<double> target_error; ///< target relative L2 error; the number of rays is then chosen per
-                                        ///< receiver
-    FitMode fit = FitMode::vertex;
-    int bounces = 0; ///< number of bounces, or kEndlessBounces
-    TracerChoice tracer;
-    SubsurfaceOptions subsurface;
-    LampOptions lamps;
-    Repairs repairs;
-    BakeMemory memory;
-    int threads = 0; ///< number of threads; 0: all
-    std::uint64_t seed = 0;
+    int order = 6; ///< order of the transfer, 1..kMaxOrder
+    /// Number of rays per receiver, 1..kMaxRays; for BakeMethod::raster the number of directions.
+    int rays = 1024;
+    /// Target relative L2 error of direct light at the receivers, greater than 0; the bake then chooses the
+    /// number of rays of each receiver instead of `rays`, at most kMaxRays. No value: each receiver gets
+    /// `rays` rays.
+    std::optional<double> target_error;
+    FitMode fit = FitMode::vertex; ///< points where light is measured
+    int bounces = 0;     ///< number of bounces, 0..kMaxBounces, or kEndlessBounces; 0: light without bounces
+    TracerChoice tracer; ///< hardware and method that trace the rays
+    SubsurfaceOptions subsurface; ///< media inside materials
+    LampOptions lamps;            ///< light of lamps
+    Repairs repairs;              ///< treatment of faults and of noise
+    BakeMemory memory;            ///< memory limit, and number format of the result
+    int threads = 0;              ///< number of threads; 0: all
+    std::uint64_t seed = 0;       ///< seed of the random directions of rays
 };
 
-/// Noise of rays that remains in the filtered light, relative L2, estimated from two halves of the rays. A
-/// value is 0 if it is unknown.
+/// Noise of rays that remains in the light of receivers after the noise filter: estimated relative L2 error.
+/// A value of 0 means that the noise is unknown.
 struct BakeNoise {
-    bool filtered = false;
-    double sky = 0;      ///< noise of all light of a sky
-    double direct = 0;   ///< noise of light without bounces, relative to all light of a sky
-    double indirect = 0; ///< noise of light after bounces, relative to all light of a sky
-    /// Noise of the light of each lamp after bounces, relative to all baked light of the lamp.
+    bool filtered = false; ///< true: the noise filter was applied
+    double sky = 0;        ///< noise of all light of a sky
+    double direct = 0;     ///< noise of a sky's light without bounces, relative to all light of the sky
+    double indirect = 0;   ///< noise of a sky's light after bounces, relative to all light of the sky
+    /// [lamp terms] noise of each lamp's light after bounces, relative to all baked light of the lamp; empty
+    /// if the noise of lamps was not estimated.
     std::vector<double> lamps{};
 };
 
 /// Measurements of a bake.
 struct BakeStatistics {
-    /// Result of the vertex-fit test; all zero if no test points were traced.
+    /// Result of the test for FitMode::automatic and FitMode::surface, which compares light at points between
+    /// vertices with the interpolation of light at vertices. All values are 0 if no test points were traced.
     struct Fit {
         int samples = 0;     ///< number of surface samples that share the rays of one receiver; 0: light is
                              ///< measured at vertices
-        double between = 0;  ///< interpolation error of direct light between vertices (relative L2), noise
-                             ///< removed
-        double sampling = 0; ///< noise of one receiver's rays (relative L2)
+        double between = 0;  ///< relative L2 error of the interpolation of direct light between vertices,
+                             ///< without noise
+        double sampling = 0; ///< relative L2 error of direct light by noise of one receiver's rays
     };
+    /// Numbers of receivers.
     struct Receivers {
-        std::size_t all = 0;        ///< receivers of the scene
-        std::size_t traced = 0;     ///< receivers on a surface; the others have zero transfer
-        std::size_t back_sides = 0; ///< additional receivers on back sides of surfaces that scatter on both
-                                    ///< sides
-        std::size_t sealed = 0;     ///< receivers inside geometry, where no light arrives
+        std::size_t all = 0;    ///< receivers of the scene, which are its vertices
+        std::size_t traced = 0; ///< receivers of the scene with an area, from which rays were traced; the
+                                ///< others take the transfer of a receiver at the same position, or are dark
+        std::size_t back_sides = 0; ///< additional receivers on back sides of surfaces that scatter light on
+                                    ///< both sides; the result does not contain them
+        std::size_t sealed = 0;     ///< receivers inside solid geometry, where no light arrives
         std::size_t refilled = 0;   ///< sealed receivers that took the values of their neighbours
     };
+    /// Wall-clock time of the stages of the bake in seconds.
     struct Seconds {
-        double build = 0; ///< building acceleration structures and loading textures
-        double fit = 0;   ///< fitting vertices to the surface
-        TraceSeconds tracing;
-        double transport = 0; ///< bounces and subsurface scattering
-        double all = 0;
+        double build = 0; ///< time for building acceleration structures; loading textures is not included
+        double fit =
+            0; ///< time for fitting vertices to the surface; `bake` does not measure it and leaves it 0
+        TraceSeconds tracing; ///< time for tracing rays
+        double transport = 0; ///< time for bounces, subsurface scattering and the noise filter
+        double all = 0;       ///< total time; loading textures is not included
     };
+    /// Size of the sparse operator that applies a bounce; all values are 0 if no light bounces.
     struct Gather {
+        /// `entries`: number of stored elements of the operator; `bytes`: their memory.
         std::size_t entries = 0, bytes = 0;
         std::size_t bytes_moved = 0; ///< bytes transferred to and from the device that applied the operator;
                                      ///< 0: the CPU applied it
     };
+    /// Numbers of light sources of the scene that were baked.
     struct Lamps {
-        /// Number of lamps, and of their lights and emissive triangles.
+        /// `count`: number of lamp terms; `lights`: number of punctual lights in these terms; `triangles`:
+        /// number of emissive triangles in these terms.
         std::size_t count = 0, lights = 0, triangles = 0;
     };
     Receivers receivers;
     Fit fit;
-    std::size_t rays = 0; ///< all traced rays
-    std::string device;
+    std::size_t rays = 0; ///< number of all traced rays, including those of lamps, tests and error estimates
+    std::string device;   ///< name of the device that traced the rays, for reports
     Seconds seconds;
-    double mean_visibility = 0; ///< area-weighted mean of T_0 / Y_00 of the direct light
-    /// Relative L2 error by sampling, estimated from independent samples: with `denoise` of all sky light
-    /// after the noise filter, without it of direct sky light only.
+    /// Share of a uniform sky's light that arrives without bounces, 0..1: mean over the receivers, weighted
+    /// by area, of T_0 / Y_00. T_0 is the first coefficient of direct light, Y_00 the constant SH function.
+    double mean_visibility = 0;
+    /// Estimated relative L2 error of the transfer by noise of rays. It applies to all light of the sky after
+    /// the noise filter if BakeNoise::filtered, otherwise to direct light of the sky. 0 for
+    /// BakeMethod::raster, whose error is not estimated.
     double sampling_error = 0;
-    double rounding_error = 0;   ///< relative L2 error of storing float16
-    double remaining_energy = 0; ///< energy of the bounces that were not computed, relative to the largest
-                                 ///< transfer
+    double rounding_error = 0; ///< relative L2 error that storing the transfer as float16 causes; computed
+                               ///< for both number formats
+    /// Light of the bounces that were not computed, estimated as a geometric series: the largest norm of its
+    /// transfer vectors, relative to the largest norm of the baked transfer vectors. For kEndlessBounces: the
+    /// estimated error of the sum over all bounces, relative to the largest coefficient.
+    double remaining_energy = 0;
     Lamps lamps;
-    Gather gather;                    ///< size of the operator that applies bounces
-    std::vector<std::string> notices; ///< parts of the scene that were left out or repaired, with reasons,
-                                      ///< one line each
+    Gather gather;
+    std::vector<std::string> notices; ///< parts of the scene that the bake left out or repaired, with
+                                      ///< reasons, one line each
 
-    /// All traced rays divided by the total time.
+    /// Returns all traced rays divided by the total time, per second.
     double rays_per_second() const { return static_cast<double>(rays) / seconds.all; }
 };
 
 /// Result of a bake.
 struct BakeResult {
-    BakedTransfer baked;
-    /// Receivers inside geometry, which no light reaches and which are never visible; in ascending order.
+    BakedTransfer baked; ///< transfer of all vertices of the scene
+    /// Indices of receivers inside solid geometry, which no light reaches and which are never visible; in
+    /// ascending order.
     std::vector<std::uint32_t> sealed;
     BakeStatistics statistics;
-    BakeNoise noise;
-    std::optional<BakeErrors> errors; ///< set if they were requested
+    BakeNoise noise;                  ///< noise that remains after the noise filter
+    std::optional<BakeErrors> errors; ///< errors over the surface; no value unless MeasureErrors::yes
 };
 
-/// Whether a bake measures its errors over the surface. This adds the rays of some hundred receivers.
+/// Selects whether a bake measures `BakeErrors`, which adds the rays of some hundred to some thousand
+/// receivers.
 enum class MeasureErrors { no, yes };
 
-/// Error of a bake with endless bounces: a closed room reflects all light of a lamp.
+/// Error of a bake with kEndlessBounces and lamps: the light of a lamp grows without limit, because a closed
+/// room reflects all of it.
 struct EndlessLampLight : Error {
     using Error::Error;
 };
 
-/// Bakes transfer for every vertex. On the CPU the result is deterministic for a given seed and does not
-/// depend on the number of threads. Throws `Error` for invalid options, for a bake that does not fit into
-/// memory, and if a backend is not available; `EndlessLampLight`; and `Cancelled` after a stop request.
+/// Bakes transfer for every vertex of `scene`. On the CPU the result is deterministic for a given seed and
+/// does not depend on the number of threads. Throws `Error` for invalid options, for a bake that does not fit
+/// into memory, and if a backend is not available. Throws `EndlessLampLight` if the light of lamps does not
+/// converge, and `Cancelled` after a stop request.
 BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& progress = {},
                 MeasureErrors errors = MeasureErrors::no);
 
-/// Estimates the peak memory of a bake in bytes, without the operator of its bounces, whose size is known
-/// only after some receivers are traced. `numbers`: number of coefficients of a transfer vector, over all
-/// terms.
+/// Estimates the peak memory of a bake in bytes. The estimate excludes the operator of the bounces, whose
+/// size is known only after some receivers are traced. `receivers`: number of receivers, including back
+/// sides; `triangles`: number of triangles of the scene; `numbers`: number of coefficients of a transfer
+/// vector, over all its terms and channels.
 double estimate_memory(const BakeOptions& options, std::size_t receivers, std::size_t triangles,
                        std::size_t numbers);
 

@@ -13,11 +13,11 @@ namespace prt {
 
 /// Reasons why the light of a model differs from path tracing.
 enum class ErrorCause {
-    light,    ///< light outside the bands of the order
-    bounces,  ///< bounces that were not baked
-    vertices, ///< interpolation between the vertices
-    rays,     ///< noise of the bake
-    bytes,    ///< compression
+    light,    ///< the transfer contains only the SH bands of its order
+    bounces,  ///< the bake contains only some bounces
+    vertices, ///< light is interpolated between the vertices
+    rays,     ///< the bake has noise of rays
+    bytes,    ///< compression changes the transfer
 };
 /// Number of values of `ErrorCause`.
 inline constexpr std::size_t kErrorCauses = 5;
@@ -25,70 +25,86 @@ inline constexpr std::size_t kErrorCauses = 5;
 /// Returns the name in reports: "light", "bounces", "vertices", "rays" or "bytes".
 const char* to_string(ErrorCause cause);
 
-/// Level to which squared errors are relative.
+/// Value by which squared errors of exit radiance are divided. It includes direct light of suns that the
+/// renderer adds.
 enum class BudgetMeasure {
-    relative, ///< mean squared radiance of the surface; the three channels have equal weights
-    /// (Y + Y_a)² at each point, with channels weighted as in luminance: contrast errors (docs/math.md, eq.
-    /// 33b).
+    /// The mean of the squared exit radiance over the area of the surface. The three channels have equal
+    /// weights.
+    relative,
+    /// (Y + Y_a)² at each point, for contrast errors (docs/math.md, eq. 33b). Y is the luminance of the
+    /// exit radiance at the point, Y_a a tenth of the logarithmic mean luminance of the surface. Squared
+    /// errors of the channels have the weights of luminance.
     visible,
 };
 
-/// Squared error in a `BudgetMeasure`, with its 95 % confidence interval over the random choice of points and
-/// paths. The estimate is unbiased, and can be negative if the true value is near zero.
+/// Squared error divided by the value of a `BudgetMeasure`, as an area-weighted mean over the surface. The
+/// estimate is unbiased, and can be negative if the true value is near zero.
 struct SquaredError {
+    /// `value`: the estimate; `low`, `high`: its 95 % confidence interval over the random choice of points
+    /// and paths. All are 0 if the surface is not lit.
     double value = 0, low = 0, high = 0;
 
-    /// Relative L2 error; 0 if the estimate is negative.
+    /// Returns the square root of `value`, which is the relative error; 0 if `value` is negative.
     double root() const;
 };
 
 /// Error of a model, split into its causes.
 struct ErrorBudget {
-    std::array<SquaredError, kErrorCauses> causes; ///< [ErrorCause] error if this cause were the only one
-    /// Interaction of the causes: twice the sum of the products of their errors, which is `total` minus the
-    /// sum of `causes`.
+    /// [ErrorCause] squared error that the cause would have if it were the only one.
+    std::array<SquaredError, kErrorCauses> causes;
+    /// Interaction of the causes: `total` minus the sum of `causes`, which is twice the sum of the products
+    /// of the errors of each two causes. `low` and `high` are 0, because this interval is not estimated.
     SquaredError together;
-    SquaredError total; ///< total error, measured independently of `causes`
+    SquaredError total; ///< squared error of all causes at once, measured independently of `causes`
 
+    /// Returns the entry of `causes` for `cause`.
     SquaredError& of(ErrorCause cause) { return causes[static_cast<std::size_t>(cause)]; }
+    /// Returns the entry of `causes` for `cause`.
     const SquaredError& of(ErrorCause cause) const { return causes[static_cast<std::size_t>(cause)]; }
-    /// Returns the sum of `causes`.
+    /// Returns the sum of the values of `causes`.
     double sum() const;
 };
 
-/// Exit radiance under one lighting, interpolated to points, [points] each. Direct light of suns that the
-/// renderer adds is not included.
+/// Exit radiance for albedo 1 under one lighting, interpolated from the receivers to points of the surface.
+/// Each array has the length [points] and linear Rec. 709 values. Direct light of suns that the renderer adds
+/// is not included.
 struct InterpolatedRadiance {
-    std::vector<glm::vec3> baked;
-    std::vector<glm::vec3> repeated; ///< radiance from the same bake with another seed
-    std::vector<glm::vec3> shipped;  ///< radiance after compression; equal to `baked` if nothing is
-                                     ///< compressed
+    std::vector<glm::vec3> baked;    ///< radiance from the bake, uncompressed
+    std::vector<glm::vec3> repeated; ///< radiance from another bake of the scene with a different seed
+    std::vector<glm::vec3> shipped; ///< radiance after compression of `baked`; equal to `baked` if nothing is
+                                    ///< compressed
     bool alike = true; ///< true: `repeated` has the same number of rays as `baked`; false: it may have fewer
 };
 
-/// Computes the error of each cause (docs/math.md, section 16) as a difference of two radiances: `light`
-/// between the bands of the order and the exact light, `bounces` between the baked bounces and all bounces,
-/// `vertices` between interpolated radiance and radiance at the points, `rays` between two independent bakes,
-/// `bytes` between the compressed and the uncompressed bake. `cut`: order and bounces of the bake.
+/// Computes the error of each cause (docs/math.md, section 16) as a difference of two radiances at `points`:
+/// `light` between the SH bands of the order and the exact light, `bounces` between the baked bounces and all
+/// bounces, `vertices` between interpolated radiance and radiance at the points, `rays` between two
+/// independent bakes, `bytes` between the compressed and the uncompressed bake. `reference` must be traced at
+/// `points`, and the arrays of `radiance` must have one entry per point. `cut`: order and bounces of the
+/// bake.
 ErrorBudget error_budget(const SurfacePoints& points, const SurfaceRadiance& reference,
                          const BandTruncation& cut, const InterpolatedRadiance& radiance,
                          BudgetMeasure measure = BudgetMeasure::relative);
 
-/// Returns the error that the order of `cut` causes, with all bounces.
+/// Returns the squared error that the order of `cut` causes in light with all bounces, relative as in
+/// BudgetMeasure::relative. The bounces of `cut` are ignored. `reference` must be traced at `points`.
 SquaredError light_error(const SurfacePoints& points, const SurfaceRadiance& reference,
                          const BandTruncation& cut);
-/// Returns the error that the number of bounces of `cut` causes.
+/// Returns the squared error that the limited number of bounces of `cut` causes in the SH bands of `cut`,
+/// relative as in BudgetMeasure::relative. `reference` must be traced at `points`.
 SquaredError bounces_error(const SurfacePoints& points, const SurfaceRadiance& reference,
                            const BandTruncation& cut);
 
-/// Returns the relative interpolation error that would remain if all triangles were split at the midpoints of
-/// their edges and the light at all corners were exact. `corners`: radiance at `quarters.corners` [3 points];
-/// `reference`: radiance at `points`.
+/// Returns the squared interpolation error, relative as in BudgetMeasure::relative, that would remain if all
+/// triangles were split at the midpoints of their edges and the light at all corners were exact. `quarters`:
+/// corners of the smaller triangles at `points`. `corners`: radiance traced at `quarters.corners` [3 per
+/// point]; `reference`: radiance traced at `points`.
 SquaredError split_error(const SurfacePoints& points, const SurfaceRadiance& reference,
                          const QuarterCorners& quarters, const SurfaceRadiance& corners,
                          const BandTruncation& cut);
 
-/// Returns the mean of the budgets of several lights.
+/// Returns the arithmetic mean of the squared errors and intervals of `budgets`, one budget per lighting.
+/// `budgets` must not be empty.
 ErrorBudget mean_budget(std::span<const ErrorBudget> budgets);
 
 } // namespace prt

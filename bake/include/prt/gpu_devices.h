@@ -1,5 +1,7 @@
 #pragma once
 
+// Lists the GPUs that can run a bake, and selects one of them by number or name.
+
 #include <span>
 #include <string>
 #include <vector>
@@ -8,27 +10,29 @@ namespace prt {
 
 /// Method by which a GPU finds the surfaces that rays hit.
 enum class Traversal {
-    automatic, ///< ray queries if the device supports them, otherwise `compute`
-    device,    ///< ray queries of the device
-    compute,   ///< our own hierarchy in compute shaders
+    automatic, ///< `device` if the GPU supports ray queries, otherwise `compute`
+    device,    ///< ray queries of Vulkan: the driver builds and searches the hierarchy of triangles
+    compute,   ///< compute shaders of prtkit search a hierarchy of triangles that prtkit builds
 };
 
-/// A device that a bake may run on.
+/// A Vulkan device that a bake may run on.
 struct GpuDevice {
-    std::string name;         ///< name reported by the driver
-    std::string driver;       ///< driver and its version
-    bool hardware = false;    ///< false for a device that is emulated on the CPU
-    bool ray_queries = false; ///< supports ray queries
-    double memory = 0;        ///< device memory in bytes
-    std::string missing_feature =
-        {}; ///< feature that a bake needs and the device lacks; empty if it has all of them
+    std::string name;      ///< name that the driver reports
+    std::string driver;    ///< name and version of the driver; empty if the device is older than Vulkan 1.2
+    bool hardware = false; ///< false: the CPU emulates the device
+    bool ray_queries = false; ///< true: the device supports Traversal::device
+    double memory = 0;        ///< size of the largest heap of device memory in bytes
+    /// Feature that a bake needs and the device lacks; empty if the device can run a bake.
+    std::string missing_feature = {};
 };
 
-/// Returns all devices in the order of their numbers; empty if Vulkan is not available.
+/// Returns all Vulkan devices, including devices that cannot run a bake. The index of a device is its number
+/// for `named_device`. The result is empty if Vulkan is not available.
 std::vector<GpuDevice> gpu_devices();
 
-/// Returns the index of a device by its number or part of its name, in any case. Throws `Error` with the
-/// available devices unless exactly one matches.
+/// Returns the index in `devices` of the device that `which` selects: a decimal index, or a part of the
+/// device's name without regard to case. A valid index has priority. Throws `Error` with a list of `devices`
+/// unless `which` is a valid index or a part of exactly one name.
 std::size_t named_device(std::span<const GpuDevice> devices, const std::string& which);
 
 } // namespace prt

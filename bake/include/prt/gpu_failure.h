@@ -1,22 +1,26 @@
 #pragma once
 
+// Errors of a GPU during a bake. With Backend::automatic the bake catches them and continues on the CPU; with
+// Backend::gpu the caller gets them.
+
 #include "prt/support/error.h"
 
 namespace prt {
 
-/// A GPU failed during the work, for a reason that is not in the work itself. The work can continue on a CPU.
+/// A GPU failed during its work, for a reason that is not in the work itself. The same work can succeed on a
+/// CPU.
 struct GpuFailure : Error {
     using Error::Error;
 };
-/// The device was lost: its driver was reset, or the device was removed.
+/// The GPU was lost: its driver was reset, the GPU was removed, or it did not respond within a minute.
 struct GpuLost : GpuFailure {
     using GpuFailure::GpuFailure;
 };
-/// The device has too little memory.
+/// The GPU has too little free memory for its work, or its driver has too little memory of the machine.
 struct GpuMemoryError : GpuFailure {
     using GpuFailure::GpuFailure;
 };
-/// The device ends long loops early, so that its results are wrong.
+/// The GPU ends long loops of shaders early, which makes its results wrong.
 struct GpuLoopsCutShort : GpuFailure {
     GpuLoopsCutShort()
         : GpuFailure(

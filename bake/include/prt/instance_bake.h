@@ -13,50 +13,59 @@ namespace prt {
 
 /// Settings for instances.
 struct InstanceBakeOptions {
-    int samples = 256; ///< maximum number of receivers of each instance that are traced in its surroundings;
-                       ///< the factors are fitted to them
-    double rays = 0.0625; ///< number of rays of such a receiver, relative to the bake's number of rays per
-                          ///< receiver; at least 16 rays are traced
-    /// Lightings under which errors are measured in addition to five soft skies; they have no lamps and at
-    /// least the order of the bake.
+    /// Maximum number of samples of each instance, at least 8. Samples are receivers that are traced in the
+    /// surroundings of the instance; the factors of the instance are fitted to their light.
+    int samples = 256;
+    /// Number of rays of a sample as a fraction of BakeOptions::rays, greater than 0 and at most 1. At least
+    /// 16 rays are traced.
+    double rays = 0.0625;
+    /// Lightings under which errors are measured in addition to five built-in soft skies. They must not have
+    /// lamps, and must have at least the order of the bake.
     std::vector<Lighting> lights = {};
 };
 
-/// The scene to bake, flat and as stored in the file.
+/// The scene to bake, once with all instances and once as stored in the file. All members are references to
+/// data of the caller.
 struct InstanceScene {
-    const Scene& scene;  ///< every instance has its own vertices
-    const Scene& stored; ///< each instanced mesh once in its own frame, and everything that is drawn once
-    const std::vector<SharedMesh>& meshes;
-    const std::vector<int>& mesh_nodes; ///< [meshes] node in `stored` that draws each mesh in its own frame
-    const std::vector<int>& node_of;    ///< [nodes of `scene`] node in `stored`; -1: an instance
+    const Scene& scene;  ///< flat scene: every instance has its own vertices
+    const Scene& stored; ///< contains each instanced mesh once, in its own frame, and everything that is
+                         ///< drawn once
+    const std::vector<SharedMesh>& meshes; ///< instanced meshes with their instances in `scene`
+    const std::vector<int>& mesh_nodes;    ///< [meshes] node in `stored` that draws the mesh in its own frame
+    const std::vector<int>& node_of; ///< [nodes of `scene`] the same node in `stored`; -1: the node is an
+                                     ///< instance
 };
 
 /// Measurements of a bake with instances.
 struct InstanceStatistics {
-    std::size_t receivers = 0; ///< receivers traced with all rays: those of the separate meshes and of
-                               ///< everything that is drawn once
-    std::size_t samples = 0;   ///< receivers traced in the surroundings of the instances
-    std::size_t rays = 0;
-    std::size_t lights = 0; ///< number of InstanceBakeOptions::lights under which errors were measured
-    std::size_t alone = 0;  ///< instances whose rays hit nothing except the instance itself
-    int bounces = 0;        ///< bounces that were computed
-    double seconds = 0;
-    std::vector<std::string> notices;
+    /// Number of receivers traced with BakeOptions::rays rays: the receivers of the instanced meshes, each
+    /// mesh once, and of everything that is drawn once.
+    std::size_t receivers = 0;
+    std::size_t samples = 0; ///< number of receivers traced in the surroundings of the instances, summed over
+                             ///< all instances
+    std::size_t rays = 0;    ///< number of all traced rays
+    std::size_t lights = 0;  ///< number of InstanceBakeOptions::lights under which errors were measured
+    std::size_t alone = 0;   ///< number of instances whose rays hit nothing except the instance itself
+    int bounces = 0;         ///< number of bounces that were computed, also for kEndlessBounces
+    double seconds = 0;      ///< total wall-clock time in seconds
+    std::vector<std::string> notices; ///< parts of the scene that the bake left out or repaired, with
+                                      ///< reasons, one line each
 };
 
-/// Result of a bake with instances.
+/// Result of a bake with instances. Instances are numbered mesh by mesh in the order of
+/// InstanceScene::meshes, and within a mesh in the order of its placements.
 struct InstanceBake {
-    BakedTransfer baked; ///< transfer of the receivers of `stored`
-    StoredInstances instances;
-    /// [instances] relative L2 error of exit radiance at the traced receivers, without the noise of their
-    /// rays. It is the maximum of the error over the five soft skies together and the errors under each of
-    /// `InstanceBakeOptions::lights`.
+    BakedTransfer baked;       ///< transfer of the receivers of InstanceScene::stored
+    StoredInstances instances; ///< factors of the instances, and boxes of the meshes
+    /// [instances] relative L2 error of exit radiance at the samples of the instance, without the noise of
+    /// their rays. The value is the maximum of the error over the five soft skies together, and of the errors
+    /// under each of InstanceBakeOptions::lights.
     std::vector<double> errors;
     InstanceStatistics statistics;
 };
 
-/// Bakes `scene` with shared transfer. Throws `Error` for features that shared transfer does not support
-/// (lamps, media, depth maps, target errors and fits to the surface), and the errors of `bake`.
+/// Bakes `scene` with shared transfer, at vertices. Throws `Error` for features that shared transfer does not
+/// support (lamps, media, depth maps, target errors and FitMode::surface), and the errors of `bake`.
 InstanceBake bake_instances(const InstanceScene& scene, const BakeOptions& options,
                             const InstanceBakeOptions& instances = {}, const Progress& progress = {});
 

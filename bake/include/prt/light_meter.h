@@ -1,6 +1,6 @@
 #pragma once
 
-// Automatic exposure. Measures the light that comes from the model and ignores the sky behind it.
+// Automatic exposure. Measures the light that comes from the model and ignores the sky behind the model.
 
 #include "prt/picture.h"
 #include "prt/trace_scene.h"
@@ -11,18 +11,20 @@
 
 namespace prt {
 
-/// The receivers that the camera of a picture sees, sampled on a coarse grid.
+/// The receivers that the camera of a picture sees, sampled on a coarse grid of pixels.
 class LightMeter {
 public:
-    /// Finds the visible receivers by at most 48 x 48 rays. Ignores radiance, transfer and lighting of
-    /// `picture`, and keeps no reference to it. `ray_scene` must be built from `*picture.scene`.
+    /// Finds the visible receivers with at most 48 x 48 rays. Ignores radiance, transfer and lighting of
+    /// `picture`. `ray_scene` must be built from `*picture.scene`. Keeps no reference to the arguments.
     LightMeter(const Picture& picture, const RayScene& ray_scene);
 
-    /// Returns the visible receivers, each once. For a picture with lightmaps these are texels of its layout.
+    /// Returns the visible receivers, each once, in ascending order; empty if the model is not visible. For a
+    /// picture with lightmaps these are texels of its layout.
     std::span<const std::uint32_t> receivers() const { return receivers_; }
 
     /// Returns the mean luminance (Rec. 709) of exit radiance times base color over the pixels that the model
-    /// covers; 0 if it covers none. `radiance` [receivers()]: exit radiance for albedo 1.
+    /// covers; 0 if the model covers no pixel. `radiance` [receivers()]: exit radiance for albedo 1, linear
+    /// Rec. 709, in the order of `receivers`. Negative values count as 0.
     float luminance(std::span<const glm::vec3> radiance) const;
 
 private:
@@ -30,11 +32,12 @@ private:
     std::vector<glm::vec3> weights_; ///< [receivers] weights of red, green and blue in the mean
 };
 
-/// Returns the luminance that the suns of `picture` add to `LightMeter::luminance`, by rays towards the suns.
-/// `scene` must be built from `*picture.scene`.
+/// Returns the luminance (Rec. 709) that `Picture::suns` add to `LightMeter::luminance`, from rays towards
+/// the suns at visible surfaces; 0 if the model covers no pixel. `scene` must be built from `*picture.scene`.
 float sun_luminance(const Picture& picture, const TraceScene& scene);
 
-/// Returns the factor on radiance that maps `luminance` to 0.22.
+/// Returns the exposure, a factor on radiance, that maps `luminance` to 0.22, a little brighter than middle
+/// grey (0.18); 1 if `luminance` is not greater than 0.
 float exposure_for(float luminance);
 
 } // namespace prt

@@ -13,46 +13,53 @@
 
 namespace prt {
 
-/// Settings of the bake.
+/// Settings of `bake_occluder` and `floor_occlusion`.
 struct OccluderOptions {
-    int rays = 256; ///< number of rays from each point around the object
-    /// Distance by which the box extends beyond the object on every side, relative to the mean of the
-    /// object's side lengths.
+    int rays = 256; ///< number of rays from each point, 1..kMaxRays
+    /// Distance by which the box of the volume extends beyond the object on every side, relative to the mean
+    /// of the object's three side lengths.
     double margin = 0.6;
-    /// Minimum effect: the object is ignored beyond the distance at which it blocks less than this fraction
-    /// of the light of a receiver that faces it.
+    /// Minimum effect, greater than 0: renderers ignore the object beyond the distance at which it blocks
+    /// less than this fraction of the light of a receiver that faces it (OcclusionVolume::reach).
     double least = 0.01;
-    TracerChoice tracer = {};
-    Repairs repairs = {};
-    int threads = 0; ///< number of threads; 0: all
-    std::uint64_t seed = 0;
+    TracerChoice tracer = {}; ///< hardware that traces the rays
+    Repairs repairs = {};     ///< treatment of bad textures; other members have no effect
+    int threads = 0;          ///< number of threads; 0: all
+    std::uint64_t seed = 0;   ///< seed of random points, normals and rays
 };
 
-/// Result of the bake.
+/// Result of `bake_occluder`.
 struct OccluderBake {
-    OcclusionVolume volume;
-    std::size_t rays = 0;
-    /// Mean absolute difference between the visibility by the volume and by rays, over test receivers. These
-    /// have random normals and random positions in the box outside the object, which the fit does not use.
+    OcclusionVolume volume; ///< volume in the frame of the object
+    std::size_t rays = 0;   ///< number of all traced rays
+    /// Mean absolute error of the blocked fraction of a uniform sky's light, 0..1, by the volume against
+    /// rays, over test receivers. Test receivers have random normals and random positions in the box outside
+    /// the object; the fit of the volume does not use these positions.
     double mean_error = 0;
-    /// Mean blocked fraction of the test receivers by rays: the error of a volume that blocks nothing.
+    /// Mean blocked fraction of a uniform sky's light at the test receivers, by rays, 0..1. A volume that
+    /// blocks nothing would have this value as its `mean_error`.
     double mean_blocked = 0;
 };
 
-/// Bakes the occlusion volume of all triangles of `part`. `frame` maps the object's frame to the frame of the
-/// positions of `part`; it rotates, translates and scales. Throws the errors of `bake`, and `Error` if
-/// `frame` is singular.
+/// Bakes the occlusion volume of the object that consists of all triangles of `part`. `frame` maps the
+/// object's frame to the frame of the positions of `part`; it rotates, translates and scales uniformly.
+/// Throws the errors of `bake`, and `Error` if `frame` is singular, if the object has a size of 0, or if all
+/// points around the object are inside geometry.
 OccluderBake bake_occluder(const Scene& part, const glm::dmat4& frame, const OccluderOptions& options = {},
                            const Progress& progress = {});
 
-/// Occlusion on the ground below a scene, and around it up to a distance equal to its height. The receivers
-/// face up.
+/// Occlusion of receivers that face up, on a plane directly below the bounding box of a scene. The plane
+/// extends beyond the box on every side by the height of the scene.
 struct FloorOcclusion {
-    double mean_blocked = 0; ///< mean blocked fraction of the light, by rays
+    double mean_blocked = 0; ///< mean blocked fraction of the light of a uniform sky, by rays, 0..1
+    /// Absolute difference between the blocked fractions by the volumes and by rays, 0..1: mean and maximum
+    /// over the receivers.
     double mean_error = 0, largest_error = 0;
 };
 
-/// Compares the joint occlusion of `volumes`, placed by `frames`, with rays against all of `scene`.
+/// Compares the joint occlusion of all `volumes` with rays against all triangles of `scene`, at 2048 random
+/// receivers. `frames` [volumes]: maps the frame of each volume to the frame of the positions of `scene`.
+/// OccluderOptions::margin and OccluderOptions::least are ignored.
 FloorOcclusion floor_occlusion(const Scene& scene, std::span<const OcclusionVolume> volumes,
                                std::span<const glm::dmat4> frames, const OccluderOptions& options = {},
                                const Progress& progress = {});

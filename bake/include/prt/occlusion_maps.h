@@ -1,6 +1,6 @@
 #pragma once
 
-// Ambient occlusion in textures. Experimental.
+// Ambient occlusion and bent normals in textures. Experimental.
 
 #include "prt/ambient_occlusion.h"
 #include "prt/texels.h"
@@ -11,40 +11,44 @@
 
 namespace prt {
 
-/// Occlusion of one texture, row by row from the top.
+/// Occlusion of one texture.
 struct OcclusionMap {
-    Atlas atlas;
-    /// [texels]; texels between charts take the values of their neighbours.
+    Atlas atlas; ///< size of the texture, and the primitives that it covers
+    /// Both arrays are [atlas.height][atlas.width], row by row from v = 0 at the top. Texels between charts
+    /// take the values of their neighbours. Texels that no light reaches have the bent normal +Y.
     AmbientVisibility ambient_visibility;
-    std::size_t measured = 0;         ///< texels on surfaces
-    std::size_t sealed = 0;           ///< measured texels inside geometry; they take the values of their
-                                      ///< neighbours
-    double seam_before = 0, seam = 0; ///< jumps of `ambient` across seams before and after the seams were
-                                      ///< closed, root mean square
+    std::size_t measured = 0; ///< number of texels that charts touch, from which rays were traced
+    std::size_t sealed = 0;   ///< number of measured texels inside solid geometry, which take the values of
+                              ///< their neighbours; 0 with Inside::keep
+    /// Root mean square jump of ambient visibility between the two sides of UV seams: `seam_before` before
+    /// the seams were closed, `seam` in the result. 0 if the texture has no seam.
+    double seam_before = 0, seam = 0;
 };
 
-/// Measurements of `occlusion_maps`.
+/// Measurements of `occlusion_maps`, over all textures.
 struct OcclusionMapsStatistics {
-    std::size_t rays = 0;
-    std::string device;
-    double seconds = 0;
-    std::vector<std::string> notices;
+    std::size_t rays = 0;             ///< number of all traced rays
+    std::string device;               ///< name of the device that traced the rays, for reports
+    double seconds = 0;               ///< total wall-clock time in seconds
+    std::vector<std::string> notices; ///< parts of the scene that were ignored or repaired, with reasons, one
+                                      ///< line each
 };
 
-/// A high-poly model that blocks and reflects light instead of the scene.
+/// An optional high-poly model of the same object that blocks and reflects light instead of the scene.
 struct FinerModel {
-    const Scene* scene = nullptr; ///< null: the scene itself blocks light
-    double reach = 0;             ///< maximum distance between the finer surface and the scene's surface,
-                                  ///< metres
+    const Scene* scene = nullptr; ///< the model, which the caller keeps; null: the scene itself blocks light
+    double reach = 0;             ///< maximum distance in metres between the model's surface and the scene's
+                                  ///< surface; must be greater than 0 if `scene` is set
 };
 
-/// Throws `Error` if the distance of a finer model is invalid.
+/// Throws `Error` if `finer` has a scene and its `reach` is not greater than 0 or exceeds kFarthestVertex.
 void check_finer(const FinerModel& finer);
 
-/// Computes the maps of `atlases` (from plan_atlases or from an unwrapping) and passes them to `take` one
-/// after the other. The value of a texel is the mean over its part of the surface, with at most options.rays
-/// rays. If the finer model has a surface above or below the texel, the value is measured there. Throws the
-/// same errors as `bake`.
+/// Computes the maps of `atlases` (from plan_atlases or from an unwrapping) and passes each to `take`, in the
+/// order of `atlases`, from the calling thread. The value of a texel is the mean over its part of the
+/// surface, with at most options.rays rays. If `finer` has a surface within reach above or below the texel,
+/// the value is measured on that surface. Throws the same errors as `bake`, and `Error` if `finer` has no
+/// surface near the scene.
 OcclusionMapsStatistics occlusion_maps(const Scene& scene, const std::vector<Atlas>& atlases,
                                        const OcclusionOptions& options,
                                        const std::function<void(OcclusionMap)>& take,

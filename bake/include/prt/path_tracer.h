@@ -19,40 +19,45 @@ namespace prt {
 /// Settings of a path-traced picture.
 struct PathTraceOptions {
     Camera camera;
-    int width = 640, height = 360;
-    int bounces = kEndlessBounces; ///< maximum number of bounces between surfaces; kEndlessBounces: Russian
-                                   ///< roulette ends the path
+    int width = 640, height = 360; ///< size of the picture in pixels, each at least 1
+    /// Maximum number of bounces from surface to surface; 0: visible surfaces reflect direct light only.
+    /// kEndlessBounces: no maximum, Russian roulette ends each path.
+    int bounces = kEndlessBounces;
     /// True: multiply by the base color of visible surfaces; false: show exit radiance for albedo 1.
     bool textured = true;
-    bool background = true; ///< true: show the environment behind the scene; false: black
-    /// True: show the emission of surfaces; false: show only the light that they reflect.
+    bool background = true; ///< true: show the environment behind the scene; false: show black there
+    /// True: show the emission of visible surfaces that are lamps; false: show only the light that visible
+    /// surfaces reflect.
     bool shining = true;
-    /// True: rays through random points of each pixel; false: through its center.
+    /// True: trace rays through random points of each pixel; false: through the center of each pixel.
     bool antialiased = true;
-    std::uint64_t seed = 0;
+    std::uint64_t seed = 0; ///< seed of the random paths
 
     friend bool operator==(const PathTraceOptions&, const PathTraceOptions&) = default;
 };
 
 /// Refines a picture pass by pass, with one path per pixel in each pass. Combines next-event estimation and
 /// cosine sampling by the balance heuristic (Veach 1997), with Owen-scrambled Sobol points over the passes
-/// (Burley 2020). Surfaces scatter as in the baker: Lambertian, cut out, blended or transmitting; paths do
+/// (Burley 2020). Surfaces scatter as in the baker: Lambertian, cut out, blended or transmitting. Paths do
 /// not enter media.
 class PathTracer {
 public:
-    /// Keeps references to all arguments except the options. `lamps`: lamps whose light is added; null: all
-    /// lamps are dark.
+    /// Keeps references to `scene`, `light` and `lamps`, and copies `options`. `lamps`: lamps whose light is
+    /// added; null: all lamps are dark.
     PathTracer(const TraceScene& scene, const DistantLight& light, const PathTraceOptions& options,
                const SceneLamps* lamps = nullptr);
 
-    /// Traces one more path for every pixel on `threads` threads (0: all). A stop request is checked before
-    /// each row: `Cancelled` is then thrown, and rows that are complete keep their new path.
+    /// Traces one more path for every pixel on `threads` threads (0: all). Throws `Cancelled` after a stop
+    /// request, which is checked before each row; rows that are complete then keep their new path.
     void add_pass(int threads = 0, std::stop_token stop = {});
+    /// Returns the number of complete passes.
     int passes() const { return passes_; }
 
-    /// Returns the mean of all passes: linear radiance, [height][width].
+    /// Returns the mean of all passes: radiance, linear Rec. 709, [height][width]; black before the first
+    /// pass.
     Image image() const;
-    /// Returns whether the ray through the center of each pixel hits a visible surface, [height][width].
+    /// Returns for each pixel whether the ray through its center hits a visible surface, [height][width].
+    /// Back sides of single-sided surfaces and surfaces with an opacity below 0.5 do not count.
     std::vector<bool> surface_mask() const;
 
 private:
@@ -66,13 +71,17 @@ private:
     std::vector<int> counts_;     ///< [height]
 };
 
-/// A path-traced picture in two independent halves, for the measures of prt/picture_error.h.
+/// A path-traced picture in two halves from independent random numbers, for the measures of
+/// prt/picture_error.h.
 struct PathTracedPicture {
-    std::array<Image, 2> halves; ///< [height][width]
-    std::vector<bool> surfaces;  ///< see `PathTracer::surface_mask`
+    std::array<Image, 2> halves; ///< radiance of each half, linear Rec. 709, [height][width]; the mean of the
+                                 ///< halves is the picture
+    std::vector<bool> surfaces;  ///< [height][width] true: the pixel shows a surface, as
+                                 ///< PathTracer::surface_mask
 };
 
-/// Renders a picture with `paths` paths per pixel, rounded up to an even number. Other arguments are those of
+/// Renders a picture with `paths` paths per pixel, rounded up to an even number, at least 2; half of the
+/// paths belong to each of the two halves. Uses all threads of the machine. The other arguments are those of
 /// `PathTracer`. Throws `Cancelled` after a stop request.
 PathTracedPicture path_traced(const TraceScene& scene, const DistantLight& light,
                               const PathTraceOptions& options, int paths, const SceneLamps* lamps = nullptr,
