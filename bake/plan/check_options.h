@@ -2,7 +2,7 @@
 
 // Validation of BakeOptions.
 
-#include "prt/bake.h"
+#include "prt/bake_options.h"
 
 namespace prt {
 

@@ -2,7 +2,7 @@
 
 // Properties of a bake that are known before the first ray.
 
-#include "prt/bake.h"
+#include "prt/bake_options.h"
 #include "prt/trace_scene.h"
 #include "scene/transport_receivers.h"
 #include "trace/choose_lamps.h"

@@ -2,7 +2,7 @@
 
 #include "prt/incident_reference.h"
 
-#include "prt/bake.h"
+#include "prt/bake_options.h"
 #include "prt/sh.h"
 #include "prt/support/error.h"
 #include "reference/light_paths.h"

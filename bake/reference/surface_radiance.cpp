@@ -4,7 +4,7 @@
 
 #include "prt/surface_radiance.h"
 
-#include "prt/bake.h"
+#include "prt/bake_options.h"
 #include "prt/sh.h"
 #include "prt/support/stopwatch.h"
 #include "reference/light_paths.h"

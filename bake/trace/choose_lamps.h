@@ -2,7 +2,7 @@
 
 // Groups the lights of a scene into lamps that are dimmed together.
 
-#include "prt/bake.h"
+#include "prt/bake_options.h"
 #include "prt/surfaces.h"
 
 #include <cstdint>

@@ -2,7 +2,8 @@
 
 // Predictor coordinates of receivers.
 
-#include "prt/compress.h"
+#include "prt/clustered_bases.h"
+#include "prt/receiver_surface.h"
 
 #include <cstddef>
 #include <span>

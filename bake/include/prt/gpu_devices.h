@@ -8,13 +8,6 @@
 
 namespace prt {
 
-/// Method by which a GPU finds the surfaces that rays hit.
-enum class Traversal {
-    automatic, ///< `device` if the GPU supports ray queries, otherwise `compute`
-    device,    ///< ray queries of Vulkan: the driver builds and searches the hierarchy of triangles
-    compute,   ///< compute shaders of prtkit search a hierarchy of triangles that prtkit builds
-};
-
 /// A Vulkan device that a bake may run on.
 struct GpuDevice {
     std::string name;      ///< name that the driver reports

@@ -3,7 +3,7 @@
 // The reference renderer (docs/math.md, section 11): path tracing, without spherical harmonics and without
 // interpolation between vertices.
 
-#include "prt/bake.h"
+#include "prt/bake_options.h"
 #include "prt/camera.h"
 #include "prt/distant_light.h"
 #include "prt/scene_lamps.h"

@@ -4,7 +4,7 @@
 // which lobes are fitted (docs/math.md, section 21). Experimental.
 
 #include "prt/animation.h"
-#include "prt/bake.h"
+#include "prt/bake_options.h"
 
 #include <glm/mat4x4.hpp>
 

@@ -30,6 +30,19 @@ struct Ray {
     float to = std::numeric_limits<float>::infinity();
 };
 
+/// Hit of a ray of a receiver on a surface.
+struct Hit {
+    std::uint32_t triangle; ///< index among the triangles of all primitives, in the order of
+                            ///< Scene::primitives
+    float u, v;             ///< barycentric coordinates of the hit for corners 1 and 2, 0..1
+    /// Number of rays that the hit represents; fractional for surfaces that stop a share of a ray. The sum
+    /// over all hits of a receiver is its number of blocked rays.
+    float weight;
+    float footprint; ///< area of the surface that the hit represents, m², for filters of textures; 0 if
+                     ///< SurfaceTraits::textured is false
+    bool back;       ///< true: the ray hit the back of the triangle
+};
+
 /// Hit of a ray on a triangle.
 struct RayHit {
     unsigned triangle; ///< index among the triangles of all primitives, in the order of Scene::primitives

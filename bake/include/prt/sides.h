@@ -3,7 +3,7 @@
 // Finds double-sided surfaces whose back sides need separate vertices, because light reaches them.
 // Experimental.
 
-#include "prt/bake.h"
+#include "prt/bake_options.h"
 
 #include <stop_token>
 #include <vector>

@@ -3,6 +3,7 @@
 // Interface of the methods that compute direct transfer: ray tracing on a CPU or a GPU, and depth maps.
 
 #include "prt/baked_transfer.h"
+#include "prt/ray_scene.h"
 #include "prt/receivers.h"
 #include "prt/support/progress.h"
 
@@ -34,19 +35,6 @@ struct TraceOptions {
     /// hit. All other rays only test whether they are blocked; the weights of the hits represent them. 1: all
     /// rays are traced to their hits, as always in scenes with cut-out, blended or glass surfaces.
     int hit_stride = 1;
-};
-
-/// Hit of a ray of a receiver on a surface.
-struct Hit {
-    std::uint32_t triangle; ///< index among the triangles of all primitives, in the order of
-                            ///< Scene::primitives
-    float u, v;             ///< barycentric coordinates of the hit for corners 1 and 2, 0..1
-    /// Number of rays that the hit represents; fractional for surfaces that stop a share of a ray. The sum
-    /// over all hits of a receiver is its number of blocked rays.
-    float weight;
-    float footprint; ///< area of the surface that the hit represents, m², for filters of textures; 0 if
-                     ///< SurfaceTraits::textured is false
-    bool back;       ///< true: the ray hit the back of the triangle
 };
 
 /// Callback that gets all hits of the receiver with index indices[i], for a call of `Tracer::trace` with

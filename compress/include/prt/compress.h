@@ -70,15 +70,6 @@ WeightCoding preset_u32x4();
 /// and nine weights of 9, 8, 7, 7, 6, 6, 5, 4 and 4 bits in every cluster. The vertex shader needs no loop.
 WeightCoding preset_u64x9();
 
-/// Receiver attributes that act as predictors (prt/clustered_bases.h). The renderer must have these vertex
-/// attributes. Each predictor costs three multiply-adds of a color in the vertex shader, and three rows per
-/// cluster. A predictor whose attribute is missing in `ReceiverSurface`, or zero everywhere, is not used.
-enum class PredictorChoice {
-    none,               ///< no predictors
-    normal,             ///< the normal
-    normal_and_position ///< the normal and the position: six multiply-adds and six rows
-};
-
 /// Settings of the compressor.
 struct CompressOptions {
     int clusters = 256; ///< maximum number of clusters, 1..65536; clusters without receivers are removed

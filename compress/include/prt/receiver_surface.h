@@ -29,6 +29,15 @@ struct ReceiverSurface {
     std::span<const SeamJump> jumps = {};
 };
 
+/// Receiver attributes that act as predictors (prt/clustered_bases.h). The renderer must have these vertex
+/// attributes. Each predictor costs three multiply-adds of a color in the vertex shader, and three rows per
+/// cluster. A predictor whose attribute is missing in `ReceiverSurface`, or zero everywhere, is not used.
+enum class PredictorChoice {
+    none,               ///< no predictors
+    normal,             ///< the normal
+    normal_and_position ///< the normal and the position: six multiply-adds and six rows
+};
+
 /// Owns the arrays of a `ReceiverSurface` for the vertices of a scene as receivers.
 struct SceneSurface {
     std::vector<float> areas; ///< [receivers] m²: a third of the area of the triangles at each vertex
