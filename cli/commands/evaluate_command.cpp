@@ -144,9 +144,11 @@ void run(EvaluateArguments a, Session& session) {
 
 enum class Measure { sweep, budget, volume };
 constexpr Choice<Measure> kMeasures[] = {
-    {"sweep", Measure::sweep, "error against bytes and shader cost, for several methods; takes minutes"},
-    {"budget", Measure::budget, "causes of the error over the surface, with advice; bakes once more"},
-    {"volume", Measure::volume, "error of the volume against path tracing, by distance from surfaces"}};
+    {"sweep", Measure::sweep,
+     "error against bytes and shader cost, for several compression methods; takes minutes"},
+    {"budget", Measure::budget,
+     "parts of the surface error by cause, with advice; path traces and bakes once more"},
+    {"volume", Measure::volume, "error of the probe volume against path tracing, by distance from surfaces"}};
 
 void add_measures(CLI::App* command, EvaluateArguments::Measures& measures) {
     command
@@ -160,7 +162,7 @@ void add_measures(CLI::App* command, EvaluateArguments::Measures& measures) {
                     measures.volume = measures.volume || measure == Measure::volume;
                 }
             },
-            "further measurements; repeat the option for each" + explained(kMeasures))
+            "add a measurement to that of the second file; repeat for several" + explained(kMeasures))
         ->allow_extra_args(false) // one each time, so that the files may follow
         ->type_name(names_of(kMeasures));
 }
@@ -174,14 +176,24 @@ void add_evaluate(CLI::App& app, Session& session) {
         check_light_options(*command, !given.lights.empty());
         run(given, session);
     });
-    command->add_option("baked", a.baked, "output of prt bake, the reference")->required()->check(named);
+    command->add_option("baked", a.baked, "bake that is the reference: output of prt bake")
+        ->required()
+        ->check(named);
     command->add_option("shipped", a.shipped, "output of prt compress, or another bake of the same scene")
         ->check(named);
-    add_lights(command, a.lights, "lights under which errors are measured")
+    add_lights(command, a.lights,
+               "light under which errors are measured\n"
+               "uniform, overcast, sun: three built-in lights")
         ->default_str("uniform, overcast, sun");
     add_light_options(command, a.light_options);
-    add_suns(command, a.suns, "suns in the images; light without them is also measured", "auto");
-    command->add_option("--rotations", a.rotations, "number of rotations of each light about +Y")
+    add_suns(command, a.suns,
+             "number of suns of --lights that a renderer shadows separately\n"
+             "errors are measured with these suns in the sky, and with these suns separate",
+             "auto");
+    command
+        ->add_option("--rotations", a.rotations,
+                     "number of rotations about +Y of each file of --lights\n"
+                     "equally spaced over 360 degrees, 1 to 64; 1: only the rotation of --rotate")
         ->capture_default_str()
         ->check(CLI::Range(1, 64));
     add_measures(command, a.measures);
