@@ -79,17 +79,16 @@ void add_preset(CLI::App* command, SearchOptions& o) {
     count_or_auto(command, "--clusters", {1, 65536}, o.compress.clusters, o.choose_clusters,
                   "number of clusters, 1 to 65536; default: 256, or auto with a goal\n"
                   "auto: chosen for the goal: --max-error, --bytes-per-vertex or --shader-ops");
-    count_or_auto(
-        command, "--components", {0, 3 * coefficient_count(kMaxOrder)}, o.compress.coding.components,
-        o.choose_components,
-        "maximum number of PCA components of a cluster, 0 to 300\n"
-        "auto: chosen for the goal: --max-error, --bytes-per-vertex or --shader-ops\n"
-        "default: auto with a goal; else 16 and, for --bits float, 8; packed weights allow up to 16");
+    count_or_auto(command, "--components", {0, 3 * coefficient_count(kMaxOrder)},
+                  o.compress.coding.components, o.choose_components,
+                  "limit of components per cluster; default: 16, or auto with a goal\n"
+                  "auto: chosen for the goal: --max-error, --bytes-per-vertex or --shader-ops\n"
+                  "PCA components, 0 to 300; packed weights use up to 16; default with --bits float: 8");
     command
         ->add_option_function<std::string>(
             "--bits", [&o](const std::string& text) { set_bits(text, o.compress.coding); },
-            "sum of the bits of all weights of a vertex, 0 to 240\n"
-            "default: 24; with a goal, the number is chosen and cannot be given\n"
+            "sum of the bits of all weights of a vertex, 0 to 240; default: 24\n"
+            "with a goal, the number is chosen and cannot be given\n"
             "float: 32-bit weights, not quantized; shows the error of quantization by comparison")
         ->type_name("N|float");
     choice(command, "--predictors", o.compress.predictors, kPredictors,
@@ -107,11 +106,12 @@ void set_max_jump(const std::string& value, Budget& budget) {
 
 void add_goals(CLI::App* command, SearchOptions& o) {
     command
-        ->add_option("--max-error", o.budget.max_error,
-                     "minimize the bytes with at most this relative L2 error, as 0.01\n"
-                     "error of the lit surface: for each sky of --lights at every rotation about +Y\n"
-                     "also limits the contrast error under skies, and under each lamp alone\n"
-                     "default: no limit")
+        ->add_option(
+            "--max-error", o.budget.max_error,
+            "find the fewest bytes per vertex with at most this relative L2 error\n"
+            "error of the lit surface, as 0.01: for each sky of --lights at every rotation about +Y\n"
+            "also limits the contrast error under skies, and under each lamp alone\n"
+            "default: no limit")
         ->check(above_zero());
     command
         ->add_option_function<std::string>(
@@ -126,7 +126,7 @@ void add_goals(CLI::App* command, SearchOptions& o) {
     command
         ->add_option(
             "--bytes-per-vertex", o.budget.bytes_per_vertex,
-            "minimize the error with at most X bytes per vertex, bases included\n"
+            "find the minimum error with at most X bytes per vertex, with bases\n"
             "X: the bytes of its 32-bit words, plus the bytes of all bases / number of vertices or texels\n"
             "default: no limit")
         ->check(above_zero());
@@ -164,7 +164,7 @@ void add_options(CLI::App* command, CompressArguments& a) {
         ->check(named)
         ->type_name("FILE");
     Suboptions("--volume", "", "size of the probes, if the bake contains a volume", nullptr)
-        .key("bytes", "N", "bytes of weights per probe: 4, 8, 12, 16, 20, 24 or 28 [16]",
+        .key("bytes", "N", "bytes per probe, without bases: 4, 8, 12, 16, 20, 24 or 28 [16]",
              [&a](const std::string& text) {
                  const std::optional<int> bytes = whole_number(text);
                  if (!bytes || *bytes < 4 || *bytes > 28 || *bytes % 4 != 0)

@@ -67,7 +67,7 @@ SharedMeshes without_bad_ones(const SharedMeshes& meshes, const std::vector<doub
 
 void add_instances(CLI::App* command, InstanceArguments& arguments) {
     Suboptions(
-        "--instances", names_of(kModes), "transfer of meshes that nodes draw several times",
+        "--instances", names_of(kModes), "transfer of meshes that are drawn several times",
         [&arguments](const std::string& name) { arguments.mode = chosen("--instances", kModes, name); })
         .detail(explained(kModes).substr(1))
         .number("error", 0, 1e9, "bake an instance as own if its relative L2 error is larger than X [0.1]",
@@ -79,9 +79,9 @@ void add_instances(CLI::App* command, InstanceArguments& arguments) {
         ->default_str("own");
     CLI::Option* const lights =
         add_lights(command, arguments.lights,
-                   "light in which instances must keep error=X of --instances\n"
-                   "needs --instances shared or auto; five built-in soft skies are always tested");
-    add_suns(command, arguments.suns, "number of suns of --lights that a renderer shadows separately", "0");
+                   "light under which shared instances must have at most error=X\n"
+                   "error=X: the setting of --instances shared or auto; five soft skies are always tested");
+    add_suns(command, arguments.suns, "number of suns of --lights for which a renderer has shadow maps", "0");
     command->get_option("--suns")->needs(lights);
 }
 

@@ -79,10 +79,11 @@ CLI::Option* add_exposure(CLI::App* command, Exposure& exposure) {
     return command
         ->add_option_function<std::string>(
             "--exposure", [&exposure](const std::string& text) { exposure = parse_exposure(text); },
-            "exposure of the colors in stops, or auto, auto+1, auto-0.5\n"
+            "exposure in stops, or auto, auto+1, auto-0.5\n"
             "STOPS: radiance is multiplied by 2^STOPS; 0: unchanged; -100 to 100\n"
             "auto: the mean luminance of the model becomes 0.22; in prt render, of its visible part\n"
-            "auto+1: one stop brighter than auto, a factor of 2")
+            "auto+1: one stop brighter than auto, a factor of 2\n"
+            "used for .png pictures (prt render) and --colors unlit (prt relight)")
         ->type_name("STOPS")
         ->default_str("auto");
 }

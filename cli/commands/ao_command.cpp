@@ -266,7 +266,7 @@ void add_outputs(CLI::App* command, AoArguments& a) {
     CLI::Option* texels = add_texels(command, a.textures, "bake textures of this size instead of vertices");
     command
         ->add_option("--attribute", a.attribute,
-                     "vertex attribute to write: a name that begins with _\n"
+                     "vertex attribute to write: COLOR_0 or a name with leading _\n"
                      "value: fraction of uniform light that arrives, 0 to 1\n"
                      "default: COLOR_0, whose existing colors are multiplied by this value")
         ->default_str("COLOR_0")
@@ -277,7 +277,7 @@ void add_outputs(CLI::App* command, AoArguments& a) {
                       "vertices: the attribute _BENT_NORMAL; textures: named in extras.prtkit of materials");
     command
         ->add_flag("--occluders", a.outputs.occluders,
-                   "write occlusion volumes of moving objects instead of occlusion\n"
+                   "write occlusion volumes of moving objects instead of vertex values\n"
                    "occlusion volumes are for contact shadows\n"
                    "one volume for each object that moves as one part, and for each bone of a skinned figure")
         ->excludes(texels)
@@ -315,7 +315,10 @@ void add_ao(CLI::App& app, Session& session) {
     add_output(command, a.output, "write the scene with its occlusion to this file, .glb");
     add_outputs(command, a);
     add_falloff(command, a.options.tracer.falloff);
-    command->add_option("--rays", a.rays, "rays per vertex, texel or point of a volume")
+    command
+        ->add_option("--rays", a.rays,
+                     "number of rays per vertex, texel or point\n"
+                     "point: of an occlusion volume of --occluders")
         ->check(CLI::Range(1, kMaxRays))
         ->default_str("1024; --occluders: 256");
     add_fit(command, a.options.fit, "points where the occlusion of vertices is measured");

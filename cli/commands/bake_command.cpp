@@ -168,7 +168,7 @@ LampGroup parse_group(const std::string& text) {
 }
 
 void add_lamps(CLI::App* command, LampOptions& lamps) {
-    Suboptions("--lamps", names_of(kLampModes), "light of lamps that the bake contains",
+    Suboptions("--lamps", names_of(kLampModes), "part of the light of lamps that is baked",
                [&lamps](const std::string& name) { lamps.mode = chosen("--lamps", kLampModes, name); })
         .detail("lamps: lights of the scene (KHR_lights_punctual) and emissive materials")
         .detail(explained(kLampModes).substr(1))
@@ -202,7 +202,7 @@ void add_method(CLI::App* command, BakeOptions& options) {
 }
 
 void add_refinement(CLI::App* command, BakeArguments& a) {
-    Suboptions("--refine", "ERROR", "split triangles until light between vertices has this error",
+    Suboptions("--refine", "ERROR", "split triangles until light between vertices has at most this error",
                [&a](const std::string& text) {
                    if (const std::string wrong = above_zero()(text); !wrong.empty())
                        throw CLI::ValidationError("--refine", wrong);
@@ -460,9 +460,10 @@ void add_bake(CLI::App& app, Session& session) {
                             ->capture_default_str()
                             ->check(CLI::Range(1, kMaxRays));
     command
-        ->add_option("--target-error", a.options.target_error,
-                     "trace rays until direct light has this noise, relative L2, as 0.01\n"
-                     "replaces --rays: the number of rays differs between vertices; default: --rays")
+        ->add_option(
+            "--target-error", a.options.target_error,
+            "trace rays until direct light has at most this relative L2 noise\n"
+            "0.01: 1 %; replaces --rays: the number of rays differs between vertices; default: --rays")
         ->check(above_zero())
         ->excludes(rays);
     add_transport(command, a.options);

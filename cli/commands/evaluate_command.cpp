@@ -162,7 +162,7 @@ void add_measures(CLI::App* command, EvaluateArguments::Measures& measures) {
                     measures.volume = measures.volume || measure == Measure::volume;
                 }
             },
-            "add a measurement to that of the second file; repeat for several" + explained(kMeasures))
+            "further measurement of the files; repeat the option for several" + explained(kMeasures))
         ->allow_extra_args(false) // one each time, so that the files may follow
         ->type_name(names_of(kMeasures));
 }
@@ -187,7 +187,7 @@ void add_evaluate(CLI::App& app, Session& session) {
         ->default_str("uniform, overcast, sun");
     add_light_options(command, a.light_options);
     add_suns(command, a.suns,
-             "number of suns of --lights that a renderer shadows separately\n"
+             "number of suns of --lights for which a renderer has shadow maps\n"
              "errors are measured with these suns in the sky, and with these suns separate",
              "auto");
     command

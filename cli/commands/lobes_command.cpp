@@ -200,7 +200,7 @@ void add_quality(CLI::App* command, LobesArguments& a) {
         ->check(CLI::Range(1, kMaxRays));
     command
         ->add_option("--bounces", a.bake.bounces,
-                     "number of bounces between surfaces of the model; 0: direct only")
+                     "number of bounces between surfaces of the model; 0: direct light")
         ->capture_default_str()
         ->check(CLI::Range(0, kMaxBounces));
 }

@@ -56,14 +56,14 @@ void add_make(CLI::App& app, Session& session) {
         command
             ->add_option(
                 "--max-error", r.goal.max_error,
-                "minimize the bytes with at most this error, relative L2\n"
-                "error over the surface against path tracing, root mean square over all lights; 0.03: 3 %\n"
-                "default: 0.03, or 1.2 times the error of light and vertices if that is larger")
+                "find the fewest bytes per vertex with at most this error\n"
+                "relative L2 over the surface against path tracing, root mean square over all lights\n"
+                "default: 0.03 (3 %), or 1.2 times the error of light and vertices if that is larger")
             ->check(above_zero())
             ->default_str("0.03");
     command
         ->add_option("--bytes-per-vertex", r.goal.bytes_per_vertex,
-                     "minimize the error with at most X bytes per vertex, bases included\n"
+                     "find the minimum error with at most X bytes per vertex, with bases\n"
                      "X: the bytes of its 32-bit words, plus the bytes of all bases / number of vertices")
         ->check(above_zero())
         ->excludes(error);

@@ -127,7 +127,7 @@ void add_project(CLI::App& app, Session& session) {
         command, [&session](const ProjectArguments& given) { run(given, session); });
     command
         ->add_option("environment", a.environment,
-                     "image (.exr, .hdr, .png, .jpg); {face}: six, px, nx, py, ny, pz, nz")
+                     "image (.exr, .hdr, .png, .jpg); {face}: 6 files, px nx py ny pz nz")
         ->required()
         ->check(named);
     add_output(command, a.output, "write the light to this file, .json");

@@ -33,7 +33,7 @@ constexpr Choice<ColorKind> kColors[] = {
     {"radiance", ColorKind::radiance, "radiance of a surface with albedo 1; linear, float32"},
     {"albedo", ColorKind::albedo, "radiance times the base color of the surface; linear, float32"},
     {"unlit", ColorKind::unlit,
-     "radiance times --exposure, 16 bits; materials become unlit, for Blender and viewers"}};
+     "radiance times --exposure, 16 bits; materials become unlit; for Blender, viewers"}};
 
 struct RelightArguments {
     Path model, environment, output, json;

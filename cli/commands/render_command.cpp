@@ -565,7 +565,10 @@ void add_render(CLI::App& app, Session& session) {
     add_light(command, a.environment);
     add_output(command, a.output, "write the picture to this file, .png or .exr");
     add_view(command, a.view);
-    choice(command, "--device", a.backend, kDevices, "processor that draws the picture", "auto");
+    choice(command, "--device", a.backend, kDevices,
+           "processor that draws the picture\n"
+           "path tracing always runs on the CPU",
+           "auto");
     choice(command, "--show", a.look.show, kShows, "quantity that the picture shows", "lit");
     command->add_option("--baked", a.baked, "bake of the model: the reference of --show error")
         ->type_name("FILE")
