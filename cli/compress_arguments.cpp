@@ -159,7 +159,8 @@ void add_options(CLI::App* command, CompressArguments& a) {
                       "default: separate, so that a renderer can draw sharp shadows of suns");
     command
         ->add_option("--fallback", a.writing.fallback,
-                     std::string("add vertex colors, lit by this file, for viewers without PRT support\n") +
+                     std::string("add vertex colors, lit by this file, for viewers without PRT support\n"
+                                 "default: no vertex colors are added\n") +
                          kLightFiles)
         ->check(named)
         ->type_name("FILE");
@@ -182,9 +183,10 @@ void add_options(CLI::App* command, CompressArguments& a) {
     add_reading(command, a.reading);
     add_threads(command, a.options.compress.threads);
     command
-        ->add_option("--trace", a.reports.trace,
-                     "log the steps of the compressor to this file, as lines of JSON\n"
-                     "one line for each round, split and merge of clusters, and for each trial of the search")
+        ->add_option(
+            "--trace", a.reports.trace,
+            "log the steps of the compressor to this file; default: no log\n"
+            "a line of JSON for each round, split and merge of clusters, and each trial of the search")
         ->check(named)
         ->type_name("FILE.jsonl");
     add_json(command, a.reports.json);

@@ -61,9 +61,9 @@ constexpr Choice<MapLayout> kLayouts[] = {
      "light probe (Debevec): all directions in a circle; the center shows -z"}};
 constexpr Choice<BadPixels> kBadPixels[] = {
     {"error", BadPixels::error, "stop with an error"},
-    {"zero", BadPixels::zero, "set them to 0"},
+    {"zero", BadPixels::zero, "replace the pixel by black"},
     {"clamp", BadPixels::clamp,
-     "set negative ones and NaN to 0, infinite ones to the largest valid value of the image"}};
+     "set negative channels and NaN to 0, infinite ones to the largest value of the image"}};
 
 CLI::Validator seed_range() {
     const auto check = [](const std::string& text) {
@@ -147,9 +147,9 @@ void add_smooth_normals(CLI::App* command, GltfOptions& reading) {
     command
         ->add_option(
             "--smooth-normals", reading.smooth_normals_degrees,
-            "compute missing normals, smooth at edges up to this angle\n"
+            "compute missing normals, smooth up to this edge angle; default: flat\n"
             "angle between the normals of two adjacent triangles, 0 to 180; existing normals are kept\n"
-            "default: flat normals, one per triangle")
+            "flat: the normal of each triangle")
         ->type_name("DEGREES")
         ->check(real_in(0, 180));
 }
@@ -213,7 +213,7 @@ void check_device(const TracerChoice& tracer) {
 }
 
 void add_seed(CLI::App* command, std::uint64_t& seed) {
-    command->add_option("--seed", seed, "start of the random numbers, 0 to 2^64 - 1")
+    command->add_option("--seed", seed, "seed of the random number generator, 0 to 2^64 - 1")
         ->capture_default_str()
         ->check(seed_range());
 }

@@ -263,7 +263,8 @@ void run(AoArguments a, Session& session) {
 }
 
 void add_outputs(CLI::App* command, AoArguments& a) {
-    CLI::Option* texels = add_texels(command, a.textures, "bake textures of this size instead of vertices");
+    CLI::Option* texels =
+        add_texels(command, a.textures, "bake textures of this size instead of vertices; default: vertices");
     command
         ->add_option("--attribute", a.attribute,
                      "vertex attribute to write: COLOR_0 or a name with leading _\n"

@@ -473,7 +473,7 @@ void add_bake(CLI::App& app, Session& session) {
     add_method(command, a.options);
     add_refinement(command, a);
     add_back_sides(command, a.back_sides);
-    add_texels(command, a.texels, "bake lightmaps of this size instead of vertices");
+    add_texels(command, a.texels, "bake lightmaps of this size instead of vertices; default: vertices");
     add_volume(command, a.volume);
     add_instances(command, a.instances);
     add_levels(command, a.levels);

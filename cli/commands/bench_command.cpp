@@ -94,10 +94,11 @@ void add_bench_device(CLI::App* command, BenchArguments& a, CLI::Option* scene) 
                     throw CLI::ValidationError("--device", "the name is empty");
                 a.options.gpu = a.list_devices ? "" : text;
             },
-            "GPU to measure, in addition to the CPU; default: the best\n"
+            "GPU to measure, in addition to the CPU; default: automatic\n"
             "N: the GPU with this number in the list\n"
             "NAME: the GPU whose name in the list contains NAME\n"
-            "list: print the list of GPUs and exit; needs no scene")
+            "list: print the list of GPUs and exit; needs no scene\n"
+            "default: a hardware GPU before a software driver, then the one with the largest memory")
         ->type_name("N|NAME|list");
 }
 

@@ -162,7 +162,9 @@ void add_measures(CLI::App* command, EvaluateArguments::Measures& measures) {
                     measures.volume = measures.volume || measure == Measure::volume;
                 }
             },
-            "further measurement of the files; repeat the option for several" + explained(kMeasures))
+            "further measurement of the files; repeat the option for several\n"
+            "default: only the errors of the second file" +
+                explained(kMeasures))
         ->allow_extra_args(false) // one each time, so that the files may follow
         ->type_name(names_of(kMeasures));
 }

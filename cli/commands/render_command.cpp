@@ -570,7 +570,7 @@ void add_render(CLI::App& app, Session& session) {
            "path tracing always runs on the CPU",
            "auto");
     choice(command, "--show", a.look.show, kShows, "quantity that the picture shows", "lit");
-    command->add_option("--baked", a.baked, "bake of the model: the reference of --show error")
+    command->add_option("--baked", a.baked, "bake of the model, needed by --show error without --path-trace")
         ->type_name("FILE")
         ->check(named);
     command
