@@ -20,8 +20,9 @@ namespace prt::cli {
 namespace {
 
 constexpr Choice<BackSides> kBackSides[] = {
-    {"auto", BackSides::automatic, "if light reaches both sides: separate vertices for each side"},
-    {"shared", BackSides::shared, "they show the light of the front"}};
+    {"auto", BackSides::automatic,
+     "add vertices, so that each side has its own light, if light reaches both sides"},
+    {"shared", BackSides::shared, "back sides show the light of the front sides"}};
 
 /// Returns "18 double-sided triangles": the number of true elements.
 std::string double_sided(const std::vector<bool>& triangles) {
@@ -49,7 +50,8 @@ Scene scene_of_levels(const GltfDocument& document, const std::vector<std::strin
 } // namespace
 
 void add_back_sides(CLI::App* command, BackSides& sides) {
-    choice(command, "--back-sides", sides, kBackSides, "back sides of double-sided materials", "auto");
+    choice(command, "--back-sides", sides, kBackSides, "light of the back sides of double-sided materials",
+           "auto");
 }
 
 void separate_sides(const SidesRequest& request, GltfDocument& document, Scene& scene) {

@@ -16,9 +16,10 @@ namespace {
 const std::map<std::string, WeightCoding (*)()> kPresets = {
     {"u32", preset_u32}, {"u64", preset_u64}, {"u32x4", preset_u32x4}, {"u64x9", preset_u64x9}};
 constexpr Choice<PredictorChoice> kPredictors[] = {
-    {"none", PredictorChoice::none, "no prediction"},
-    {"normal", PredictorChoice::normal, "transfer is predicted linearly from the normal"},
-    {"position", PredictorChoice::normal_and_position, "also from the position"}};
+    {"none", PredictorChoice::none, "no prediction; components represent all transfer"},
+    {"normal", PredictorChoice::normal,
+     "a linear function of the normal in each cluster; components represent the rest"},
+    {"position", PredictorChoice::normal_and_position, "a linear function of the normal and the position"}};
 
 struct CountRange {
     int low, high;
@@ -64,28 +65,34 @@ void add_preset(CLI::App* command, SearchOptions& o) {
                 if (name != "custom")
                     o.compress.coding = kPresets.at(name)();
             },
-            "layout of a vertex\n"
-            "u32: one 32-bit word; up to 256 clusters\n"
-            "u64: two 32-bit words; up to 256 clusters\n"
-            "u32x4: one word, four components in all clusters; for shaders without loops\n"
-            "u64x9: two words, nine components in all clusters; for shaders without loops\n"
-            "custom: from --clusters, --components, --bits and --predictors\n"
-            "small meshes get fewer clusters: bases are at most twice the vertices' bytes, or 4 KB")
+            "size and layout of the compressed data of a vertex\n"
+            "u32: one 32-bit word; up to 256 clusters, which have different numbers of components\n"
+            "u64: two 32-bit words, with clusters like those of u32\n"
+            "u32x4: one 32-bit word, four components in each cluster; for shaders without a loop\n"
+            "u64x9: two 32-bit words, nine components in each cluster; for shaders without a loop\n"
+            "custom: sizes from --clusters, --components and --bits, which imply custom\n"
+            "small meshes get fewer clusters: bases need at most twice the bytes of the vertices, or 4 KB\n"
+            "presets except custom cannot be combined with goals, --clusters, --components and --bits")
         ->check(CLI::IsMember({"u32", "u64", "u32x4", "u64x9", "custom"}))
         ->type_name("u32|u64|u32x4|u64x9|custom")
         ->default_str("u32");
     count_or_auto(command, "--clusters", {1, 65536}, o.compress.clusters, o.choose_clusters,
-                  "number of clusters, 1 to 65536; a goal can choose: auto");
+                  "number of clusters, 1 to 65536; default: 256, or auto with a goal\n"
+                  "auto: chosen for the goal: --max-error, --bytes-per-vertex or --shader-ops");
     count_or_auto(command, "--components", {0, 3 * coefficient_count(kMaxOrder)},
                   o.compress.coding.components, o.choose_components,
-                  "maximum number of PCA components of a cluster; a goal can choose: auto");
+                  "limit of components per cluster; default: 16, or auto with a goal\n"
+                  "auto: chosen for the goal: --max-error, --bytes-per-vertex or --shader-ops\n"
+                  "PCA components, 0 to 300; packed weights use up to 16; default with --bits float: 8");
     command
         ->add_option_function<std::string>(
             "--bits", [&o](const std::string& text) { set_bits(text, o.compress.coding); },
-            "bits of all weights of a vertex, 0 to 240\n"
-            "float: weights are not quantized, to measure the error of quantization")
+            "sum of the bits of all weights of a vertex, 0 to 240; default: 24\n"
+            "with a goal, the number is chosen and cannot be given\n"
+            "float: 32-bit weights, not quantized; shows the error of quantization by comparison")
         ->type_name("N|float");
-    choice(command, "--predictors", o.compress.predictors, kPredictors, "attributes that predict transfer",
+    choice(command, "--predictors", o.compress.predictors, kPredictors,
+           "vertex attributes that predict transfer\nwith a goal, the default is the best of the three",
            "normal");
 }
 
@@ -99,27 +106,36 @@ void set_max_jump(const std::string& value, Budget& budget) {
 
 void add_goals(CLI::App* command, SearchOptions& o) {
     command
-        ->add_option("--max-error", o.budget.max_error,
-                     "smallest file with at most this error, relative L2 under the lights\n"
-                     "also limits the contrast error of each lamp alone")
+        ->add_option(
+            "--max-error", o.budget.max_error,
+            "find the fewest bytes per vertex with at most this relative L2 error\n"
+            "error of the lit surface, as 0.01: for each sky of --lights at every rotation about +Y\n"
+            "also limits the contrast error under skies, and under each lamp alone\n"
+            "default: no limit")
         ->check(above_zero());
     command
         ->add_option_function<std::string>(
             "--max-jump", [&o](const std::string& value) { set_max_jump(value, o.budget); },
-            "maximum contrast jump between clusters\n"
-            "needs another goal\n"
-            "for 99 % of the borders: each FILE of --lights at 24 rotations; families: on average\n"
-            "none: no limit")
+            "limit of contrast jumps at the borders of clusters\n"
+            "X: jump relative to the local brightness, at 99 % of the borders\n"
+            "each FILE of --lights keeps it at 24 rotations; a FAMILY of --lights on average\n"
+            "none: no limit\n"
+            "needs another goal; default: 0.05 if --max-error is the only goal, else none")
         ->type_name("X|none")
-        ->default_str(fmt::format("{} with --max-error alone", kUnseenJump));
+        ->default_str(fmt::format("{} or none", kUnseenJump));
     command
-        ->add_option("--bytes-per-vertex", o.budget.bytes_per_vertex,
-                     "smallest error with at most this size, bases included\n"
-                     "bytes of a vertex, texel or probe: its 32-bit words and its share of the bases")
+        ->add_option(
+            "--bytes-per-vertex", o.budget.bytes_per_vertex,
+            "find the minimum error with at most X bytes per vertex, with bases\n"
+            "X: the bytes of its 32-bit words, plus the bytes of all bases / number of vertices or texels\n"
+            "default: no limit")
         ->check(above_zero());
     command
-        ->add_option("--shader-ops", o.budget.operations,
-                     "maximum number of rows that the shader adds per vertex, on average")
+        ->add_option(
+            "--shader-ops", o.budget.operations,
+            "limit of the mean number of multiply-adds per vertex in the shader\n"
+            "one multiply-add of a color for each component and for each predictor row of a cluster\n"
+            "default: no limit")
         ->check(above_zero());
 }
 
@@ -128,22 +144,28 @@ void add_goals(CLI::App* command, SearchOptions& o) {
 void add_options(CLI::App* command, CompressArguments& a) {
     add_preset(command, a.options);
     add_goals(command, a.options);
-    command->add_flag("--best-effort", a.best_effort, "write the closest result if nothing meets the goal");
+    command->add_flag("--best-effort", a.best_effort,
+                      "write the closest result if no result meets the goals; default: error");
     add_metric(command, a.metric);
     command
         ->add_option("--seam-weight", a.options.compress.seam_weight,
-                     "weight of error jumps along mesh edges; 0: off")
+                     "weight of error jumps along mesh edges; 0: jumps are ignored\n"
+                     "0 to 1000000, relative to the weight of the error; larger: fainter borders of clusters")
         ->capture_default_str()
         ->check(real_in(0, kMaxSeamWeight));
     command->add_flag("--combine-direct", a.writing.whole,
-                      "merge direct and indirect transfer: smaller, no sharp shadows of suns");
+                      "merge direct and indirect transfer: fewer bytes, no sharp sun shadows\n"
+                      "suns become part of the sky, with soft shadows only\n"
+                      "default: separate, so that a renderer can draw sharp shadows of suns");
     command
         ->add_option("--fallback", a.writing.fallback,
-                     std::string("light for viewers without PRT support, as vertex colors\n") + kLightFiles)
+                     std::string("add vertex colors, lit by this file, for viewers without PRT support\n"
+                                 "default: no vertex colors are added\n") +
+                         kLightFiles)
         ->check(named)
         ->type_name("FILE");
-    Suboptions("--volume", "", "size of a baked volume", nullptr)
-        .key("bytes", "N", "bytes per probe: 4, 8, 12, 16, 20, 24 or 28 [16]",
+    Suboptions("--volume", "", "size of the probes, if the bake contains a volume", nullptr)
+        .key("bytes", "N", "bytes per probe, without bases: 4, 8, 12, 16, 20, 24 or 28 [16]",
              [&a](const std::string& text) {
                  const std::optional<int> bytes = whole_number(text);
                  if (!bytes || *bytes < 4 || *bytes > 28 || *bytes % 4 != 0)
@@ -152,14 +174,19 @@ void add_options(CLI::App* command, CompressArguments& a) {
                  a.volume_bytes = *bytes;
              })
         .add(command);
-    command->add_flag("--reorder", a.writing.reorder, "sort vertices by cluster");
+    command->add_flag("--reorder", a.writing.reorder,
+                      "store the vertices of a cluster together; default: order of the bake");
     command->add_flag("--meshopt", a.writing.meshopt,
-                      "compress the file: EXT_meshopt_compression, entropy-coded weights");
+                      "compress the file with EXT_meshopt_compression; default: off\n"
+                      "also entropy-codes the weights; the bytes in GPU memory remain the same");
     add_seed(command, a.options.compress.seed);
     add_reading(command, a.reading);
     add_threads(command, a.options.compress.threads);
     command
-        ->add_option("--trace", a.reports.trace, "log each round, split, merge and trial as a line of JSON")
+        ->add_option(
+            "--trace", a.reports.trace,
+            "log the steps of the compressor to this file; default: no log\n"
+            "a line of JSON for each round, split and merge of clusters, and each trial of the search")
         ->check(named)
         ->type_name("FILE.jsonl");
     add_json(command, a.reports.json);

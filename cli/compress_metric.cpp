@@ -14,11 +14,11 @@ namespace prt::cli {
 namespace {
 
 constexpr Choice<MetricChoice> kMetrics[] = {
-    {"outdoor", MetricChoice::outdoor, "skies with ground and sun"},
-    {"indoor", MetricChoice::indoor, "rooms with windows and lamps"},
-    {"day", MetricChoice::day, "clear skies of a day"},
-    {"natural", MetricChoice::natural, "any natural light in any orientation"},
-    {"plain", MetricChoice::plain, "all coefficients have the same weight"}};
+    {"outdoor", MetricChoice::outdoor, "built-in family: skies with ground and sun"},
+    {"indoor", MetricChoice::indoor, "built-in family: rooms with windows and lamps"},
+    {"day", MetricChoice::day, "built-in family: clear skies from morning to evening"},
+    {"natural", MetricChoice::natural, "built-in family: natural light, rotated to all orientations"},
+    {"plain", MetricChoice::plain, "no lights: all SH coefficients of the transfer have the same weight"}};
 
 /// Returns no family for plain.
 std::optional<LightFamily> family_of(MetricChoice choice) {
@@ -108,8 +108,8 @@ void add_metric(CLI::App* command, MetricArguments& arguments) {
                         arguments.metric = family->value;
                 }
             },
-            "lights for which the error is minimized" + explained(kMetrics) + "\n" + kLightFiles +
-                "; repeat the option for each")
+            "lights under which the error is minimized" + explained(kMetrics) + "\n" + kLightFiles +
+                "\nrepeat the option for several files")
         ->allow_extra_args(false) // one each time, so that the bake may follow
         ->check(named)
         ->type_name("FAMILY|FILE")

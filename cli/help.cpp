@@ -130,8 +130,10 @@ std::string HelpFormatter::make_help(const CLI::App* app, std::string name, CLI:
     if (is_command)
         text += arguments_of(*app);
     text += groups_of(*app, mode == CLI::AppFormatMode::All) + make_subcommands(app, mode);
-    return text + (is_command ? "\n--help-all lists rare options and all values; defaults are in brackets\n"
-                              : "\nprt COMMAND --help lists the options of a command\n");
+    return text +
+           (is_command
+                ? "\n--help-all lists rare options and explains all values; [brackets] contain defaults\n"
+                : "\nprt COMMAND --help lists the options of a command\n");
 }
 
 std::string HelpFormatter::make_expanded(const CLI::App* command) const {

@@ -16,9 +16,11 @@ namespace prt::cli {
 namespace {
 
 constexpr Choice<InstanceMode> kModes[] = {
-    {"own", InstanceMode::own, "each instance has separate transfer"},
-    {"shared", InstanceMode::shared, "a mesh is baked once; each instance has 52 bytes of factors"},
-    {"auto", InstanceMode::automatic, "shared if possible and if it saves 3/4 of the rays, else own"}};
+    {"own", InstanceMode::own, "bake each instance with its own transfer"},
+    {"shared", InstanceMode::shared,
+     "bake a mesh once; 52 bytes per instance describe the effect of its surroundings"},
+    {"auto", InstanceMode::automatic,
+     "shared if possible and if it saves at least 3/4 of the rays, else own"}};
 
 std::size_t vertices_of(const Scene& scene, int node) {
     std::size_t count = 0;
@@ -68,13 +70,13 @@ void add_instances(CLI::App* command, InstanceArguments& arguments) {
         "--instances", names_of(kModes), "transfer of meshes that are drawn several times",
         [&arguments](const std::string& name) { arguments.mode = chosen("--instances", kModes, name); })
         .detail(explained(kModes).substr(1))
-        .number("error", 0, 1e9, "bake instances with a larger relative L2 error separately [0.1]",
+        .number("error", 0, 1e9, "bake an instance as own if its relative L2 error is larger than X [0.1]",
                 [&arguments](double error) {
                     arguments.error = error;
                     arguments.settings = true;
                 })
         .whole_number("samples", 8, 1 << 20,
-                      "vertices of each instance that are traced in its position [256]",
+                      "maximum number of vertices traced per instance, in its surroundings [256]",
                       [&arguments](int samples) {
                           arguments.bake.samples = samples;
                           arguments.settings = true;
@@ -82,8 +84,10 @@ void add_instances(CLI::App* command, InstanceArguments& arguments) {
         .add(command)
         ->default_str("own");
     CLI::Option* const lights =
-        add_lights(command, arguments.lights, "lights for the error limit of --instances shared");
-    add_suns(command, arguments.suns, "suns of --lights that the renderer draws with sharp shadows", "0");
+        add_lights(command, arguments.lights,
+                   "light under which shared instances must have at most error=X\n"
+                   "error=X: the setting of --instances shared or auto; five soft skies are always tested");
+    add_suns(command, arguments.suns, "number of suns of --lights for which a renderer has shadow maps", "0");
     command->get_option("--suns")->needs(lights);
 }
 

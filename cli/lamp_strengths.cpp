@@ -89,10 +89,11 @@ void add_lamps(CLI::App* command, LampChoice& lamps) {
                 lamps.on = given != "off";
                 lamps.file = given == "on" || given == "off" ? "" : given;
             },
-            "strengths of the lamps\n"
-            "on: as in the scene\n"
-            "off: no lamps\n"
-            "FILE: .json with a strength or [red, green, blue] for each lamp name; \"*\": all others")
+            "brightness of the baked lamps\n"
+            "on: the strengths of the scene\n"
+            "off: all lamps are dark\n"
+            "FILE: .json with a factor or [red, green, blue] for each lamp name; \"*\": all other lamps\n"
+            "factors multiply the strengths of the scene; 1: unchanged")
         ->type_name("on|off|FILE")
         ->default_str("on");
 }
@@ -100,7 +101,8 @@ void add_lamps(CLI::App* command, LampChoice& lamps) {
 void add_lamp_scale(CLI::App* command, double& scale) {
     command
         ->add_option("--lamp-scale", scale,
-                     "factor on punctual lights; 0.00146 (1/683) for candela and lux\n"
+                     "factor on the intensity of point, spot and directional lights\n"
+                     "X: 1 for lights in watts, 0.00146 (1/683) for lights in candela and lux\n"
                      "Blender, for example, exports candela and lux\n"
                      "emissive materials are not scaled")
         ->capture_default_str()

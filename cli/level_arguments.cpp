@@ -11,15 +11,17 @@ namespace prt::cli {
 namespace {
 
 constexpr Choice<LevelMode> kLevelModes[] = {
-    {"carry", LevelMode::carry, "they get the light of level 0, fitted to their surface"},
-    {"own", LevelMode::own, "each is baked in place of level 0; takes as long as level 0"},
-    {"ignore", LevelMode::ignore, "they get no transfer"}};
+    {"carry", LevelMode::carry, "fit the light of level 0 to the surface of the coarser level"},
+    {"own", LevelMode::own, "bake each coarser level instead of level 0; each takes as long as level 0"},
+    {"ignore", LevelMode::ignore, "coarser levels get no transfer"}};
 
 } // namespace
 
 void add_levels(CLI::App* command, LevelMode& mode) {
     choice(command, "--levels", mode, kLevelModes,
-           "coarser levels of detail (MSFT_lod or names as ROCK_LOD1)", "carry");
+           "transfer of coarser levels of detail\n"
+           "levels: nodes of MSFT_lod, or nodes with names as ROCK_LOD1",
+           "carry");
 }
 
 const char* to_string(LevelMode mode) {

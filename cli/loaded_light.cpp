@@ -26,10 +26,13 @@ void add_suns(CLI::App* command, SunCount& suns, const std::string& text, const 
               int* rays) {
     Suboptions option("--suns", "N|auto", text,
                       [&suns](const std::string& given) { set_count(given, suns); });
-    option.detail("auto: of an image, up to 4 suns that reduce the error noticeably; of a light file, all")
-        .detail("0: suns are part of the sky");
+    option.detail("N: at most N suns, 0 to 16, the strongest ones; 0: suns are part of the sky")
+        .detail("auto: image: up to 4 suns that each reduce the error by 1 % or more; light file: all suns");
     if (rays)
-        option.whole_number("rays", 1, 1 << 20, fmt::format("rays to each sun [{}]", *rays),
+        option.whole_number("rays", 1, 1 << 20,
+                            fmt::format("rays to each sun, from a vertex (relight) or a pixel (render) [{}]\n"
+                                        "  render uses this number on the CPU; on a GPU it draws shadow maps",
+                                        *rays),
                             [rays](int count) { *rays = count; });
     option.add(command)->default_str(usual);
 }

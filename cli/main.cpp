@@ -34,7 +34,7 @@ std::string command_line(int argc, char** argv) {
 void add_commands(CLI::App& app, Session& session) {
     app.formatter(std::make_shared<HelpFormatter>());
     app.set_help_flag("-h,--help", "print the common options and exit");
-    app.set_help_all_flag("--help-all", "print all options and exit");
+    app.set_help_all_flag("--help-all", "print all options with details and exit");
     app.set_version_flag("--version", "prt " PRTKIT_VERSION, "print the version and exit");
     app.require_subcommand(1);
     add_make(app, session);

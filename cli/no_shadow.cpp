@@ -9,7 +9,9 @@ namespace prt::cli {
 void add_no_shadow(CLI::App* command, std::vector<std::string>& materials) {
     command
         ->add_option("--no-shadow", materials,
-                     "material that casts no shadow, such as a sky dome; repeat the option")
+                     "name of a material that casts no shadow; repeat for several\n"
+                     "for example a sky dome; default: all materials cast shadows\n"
+                     "prt evaluate: the names that prt bake got; used by --measure budget and volume")
         ->allow_extra_args(false)
         ->type_name("MATERIAL");
 }

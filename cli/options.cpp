@@ -16,24 +16,26 @@ namespace prt::cli {
 namespace {
 
 constexpr Choice<Traversal> kTraversals[] = {
-    {"auto", Traversal::automatic, "ray queries if the GPU has them, else compute"},
+    {"auto", Traversal::automatic, "device if the GPU has ray queries, else compute"},
     {"compute", Traversal::compute, "a bounding volume hierarchy in compute shaders"},
     {"device", Traversal::device, "ray queries of the GPU"}};
-constexpr Choice<Inside> kInsides[] = {{"refill", Inside::refill, "they get the light of their neighbours"},
-                                       {"keep", Inside::keep, "they stay dark"}};
+constexpr Choice<Inside> kInsides[] = {
+    {"refill", Inside::refill, "the value of their neighbours; avoids dark seams where solids meet"},
+    {"keep", Inside::keep, "black, because no light reaches them"}};
 constexpr Choice<FitMode> kFits[] = {
     {"auto", FitMode::automatic,
-     "surface if test points between the vertices show a smaller error, else vertex"},
-    {"vertex", FitMode::vertex, "at the vertices"},
-    {"surface", FitMode::surface, "over the surface; vertex values are a least-squares fit"}};
+     "surface if its error at test points between the vertices is smaller, else vertex"},
+    {"vertex", FitMode::vertex, "at the position of each vertex"},
+    {"surface", FitMode::surface,
+     "at random points of the triangles; vertex values are a least-squares fit to them"}};
 constexpr Choice<BadTextures> kBadTextures[] = {
-    {"error", BadTextures::error, "stop if the command needs the texture"},
+    {"error", BadTextures::error, "stop with an error if the command needs the texture"},
     {"ignore", BadTextures::ignore,
-     "use the factors of the material; no emission if its texture is unusable"}};
+     "use the factors of the material alone; no emission if the emissive texture is bad"}};
 constexpr Choice<Window> kWindows[] = {
     {"none", Window::none, "no filter"},
-    {"hann", Window::hann, "Hann window"},
-    {"lanczos", Window::lanczos, "Lanczos window"},
+    {"hann", Window::hann, "Hann window: strong filter; also blurs light"},
+    {"lanczos", Window::lanczos, "Lanczos window: weaker filter than hann"},
     {"auto", Window::automatic, "the weakest filter for which no radiance is negative"}};
 
 /// Layout and center of an environment map.
@@ -42,21 +44,26 @@ struct MapLayout {
     LatLongCenter center = LatLongCenter::z;
 };
 constexpr Choice<MapLayout> kLayouts[] = {
-    {"lat-long", {EnvironmentLayout::lat_long}, "the center looks along z (OpenEXR); default of 2:1 images"},
+    {"lat-long",
+     {EnvironmentLayout::lat_long},
+     "2:1, latitude and longitude; the center of the image shows direction +z (OpenEXR)"},
     {"lat-long-x",
      {EnvironmentLayout::lat_long, LatLongCenter::x},
-     "the center looks along x, as in three.js, glTF viewers and Blender"},
+     "the same, but the center shows +x (three.js, glTF viewers, Blender)"},
     {"cube",
      {EnvironmentLayout::cube},
-     "six faces in a column, edge texels on the edges of the cube (OpenEXR)"},
+     "six faces in a column; edge texels are centered on the edges of the cube (OpenEXR)"},
     {"cube-faces",
      {EnvironmentLayout::cube_faces},
-     "six faces in a row or a cross (OpenGL, Vulkan, Direct3D)"},
-    {"angular", {EnvironmentLayout::angular}, "light probe: all directions in a circle (Debevec)"}};
+     "six faces in a row or a cross; no texel is shared by faces (OpenGL, Direct3D)"},
+    {"angular",
+     {EnvironmentLayout::angular},
+     "light probe (Debevec): all directions in a circle; the center shows -z"}};
 constexpr Choice<BadPixels> kBadPixels[] = {
-    {"error", BadPixels::error, "stop"},
-    {"zero", BadPixels::zero, "set them to 0"},
-    {"clamp", BadPixels::clamp, "limit them to 0 .. the largest valid value; NaN becomes 0"}};
+    {"error", BadPixels::error, "stop with an error"},
+    {"zero", BadPixels::zero, "replace the pixel by black"},
+    {"clamp", BadPixels::clamp,
+     "set negative channels and NaN to 0, infinite ones to the largest value of the image"}};
 
 CLI::Validator seed_range() {
     const auto check = [](const std::string& text) {
@@ -112,7 +119,8 @@ void add_output(CLI::App* command, Path& output, const std::string& text) {
 
 void add_reading(CLI::App* command, ReadingOptions& reading, double* limit) {
     command->add_flag("--allow-outside", reading.allow_outside,
-                      "allow files outside the scene's folder; for trusted scenes");
+                      "allow the scene to read files outside its folder; default: an error\n"
+                      "for trusted scenes only");
     choice(command, "--bad-textures", reading.bad_textures, kBadTextures,
            "handling of missing, damaged or unsupported textures", "error");
     command
@@ -125,28 +133,37 @@ void add_reading(CLI::App* command, ReadingOptions& reading, double* limit) {
                 if (limit)
                     *limit = static_cast<double>(bytes);
             },
-            limit ? "memory limit for the bake and the scene, as 8GB" : "memory limit for the scene, as 8GB")
+            limit ? "limit of memory for scene and bake, as 8GB\n"
+                    "the program stops with an error if more is needed; 1 GB: 10^9 bytes, 1 GiB: 2^30 bytes\n"
+                    "default for the scene: 256 MB + 64 times the size of its files"
+                  : "limit of memory for the scene, as 8GB\n"
+                    "the program stops with an error if more is needed; 1 GB: 10^9 bytes, 1 GiB: 2^30 bytes")
         ->transform(CLI::AsSizeValue(true))
         ->type_name("SIZE")
-        ->default_str(limit ? "the machine's memory" : "256MB + 64 x file");
+        ->default_str(limit ? "the machine's memory" : "256MB + 64 x file size");
 }
 
 void add_smooth_normals(CLI::App* command, GltfOptions& reading) {
     command
-        ->add_option("--smooth-normals", reading.smooth_normals_degrees,
-                     "smooth normals across edges up to this angle, if normals are missing")
+        ->add_option(
+            "--smooth-normals", reading.smooth_normals_degrees,
+            "compute missing normals, smooth up to this edge angle; default: flat\n"
+            "angle between the normals of two adjacent triangles, 0 to 180; existing normals are kept\n"
+            "flat: the normal of each triangle")
         ->type_name("DEGREES")
         ->check(real_in(0, 180));
 }
 
 void add_threads(CLI::App* command, int& threads) {
-    command->add_option("--threads", threads, "number of threads; 0: all")
+    command->add_option("--threads", threads, "number of CPU threads; 0: all that the machine has")
         ->capture_default_str()
         ->check(CLI::Range(0, 1024));
 }
 
 void add_json(CLI::App* command, Path& json) {
-    command->add_option("--json", json, "write all figures to this file")->type_name("FILE")->check(named);
+    command->add_option("--json", json, "write all results as JSON to this file, .json; default: no file")
+        ->type_name("FILE")
+        ->check(named);
 }
 
 void add_reports(CLI::App* command, ReportFiles& files) {
@@ -166,8 +183,9 @@ void add_reports(CLI::App* command, ReportFiles& files) {
                     file = name;
                 }
             },
-            "write a page (.html) or tables (.csv); repeat the option for both\n"
-            ".csv: one table; a row is a light, a lamp, a method or a trial; units are in the header")
+            "write a report: a page (.html) or tables (.csv); default: no report\n"
+            "repeat the option to write both files\n"
+            ".csv: a row is a light, a lamp, a method or a trial; the header contains the units")
         ->allow_extra_args(false)
         ->type_name("FILE");
 }
@@ -175,12 +193,15 @@ void add_reports(CLI::App* command, ReportFiles& files) {
 CLI::Option* add_device(CLI::App* command, TracerChoice& tracer) {
     return Suboptions("--device", "auto|cpu|gpu|N|NAME", "processor that traces the rays",
                       [&tracer](const std::string& text) { set_device(text, tracer); })
-        .detail("auto: a hardware GPU if there is one, else the CPU")
-        .detail("cpu: Embree")
-        .detail("gpu: Vulkan 1.2, hardware or software")
-        .detail("N, NAME: a GPU by its number or part of its name, from bench --device list")
-        .key("traversal", names_of(kTraversals), "ray queries of the GPU (device) or compute shaders",
+        .detail("auto: a hardware GPU with Vulkan 1.2 and enough memory if there is one, else the CPU")
+        .detail("cpu: the CPU, with Embree")
+        .detail("gpu: a GPU with Vulkan 1.2, or a software driver for Vulkan 1.2")
+        .detail("N: the GPU with this number in the list of prt bench --device list")
+        .detail("NAME: the GPU whose name in that list contains NAME")
+        .key("traversal", names_of(kTraversals), "how a GPU traces rays [auto]",
              [&tracer](const std::string& name) { tracer.traversal = chosen("--device", kTraversals, name); })
+        .detail("  auto: device if the GPU has ray queries, else compute")
+        .detail("  compute: a bounding volume hierarchy in compute shaders; device: ray queries")
         .add(command)
         ->default_str("auto");
 }
@@ -192,27 +213,30 @@ void check_device(const TracerChoice& tracer) {
 }
 
 void add_seed(CLI::App* command, std::uint64_t& seed) {
-    command->add_option("--seed", seed, "seed of the random numbers")
+    command->add_option("--seed", seed, "seed of the random number generator, 0 to 2^64 - 1")
         ->capture_default_str()
         ->check(seed_range());
 }
 
 void add_enclosed(CLI::App* command, Inside& inside) {
-    choice(command, "--enclosed", inside, kInsides, "receivers inside solid geometry", "refill");
+    choice(command, "--enclosed", inside, kInsides, "value of vertices and texels inside solid geometry",
+           "refill");
 }
 
 CLI::Option* add_lights(CLI::App* command, std::vector<Path>& lights, const std::string& text) {
-    return command->add_option("--lights", lights, text + "\n" + kLightFiles + "; repeat the option for each")
+    return command
+        ->add_option("--lights", lights, text + "\n" + kLightFiles + "\nrepeat the option for several files")
         ->allow_extra_args(false) // one each time, so that positional arguments may follow
         ->check(named)
         ->type_name("FILE");
 }
 
 CLI::Option* add_light(CLI::App* command, Path& light) {
-    return command->add_option("--lights", light, std::string("light of the sky\n") + kLightFiles)
+    return command
+        ->add_option("--lights", light, std::string("sky and suns that light the model\n") + kLightFiles)
         ->check(named)
         ->type_name("FILE")
-        ->default_str("lamps only");
+        ->default_str("black sky, only lamps");
 }
 
 void add_fit(CLI::App* command, FitMode& fit, const std::string& text) {
@@ -222,11 +246,12 @@ void add_fit(CLI::App* command, FitMode& fit, const std::string& text) {
 
 void add_light_options(CLI::App* command, LightOptions& options) {
     const auto window = std::ranges::find(kWindows, options.window, &Choice<Window>::value);
-    choice(command, "--window", options.window, kWindows, "filter of the SH bands against ringing",
-           window->name);
+    choice(command, "--window", options.window, kWindows,
+           "filter on the SH bands of the sky against ringing\nseparate suns are not filtered", window->name);
     command
         ->add_option("--rotate", options.rotation_degrees,
-                     "rotate the environment about +Y, degrees\ncounter-clockwise, seen from above")
+                     "rotate the sky and its suns about +Y by X degrees\n"
+                     "counter-clockwise, seen from above")
         ->capture_default_str()
         ->check(real_in(-1e6, 1e6));
     command
@@ -237,13 +262,18 @@ void add_light_options(CLI::App* command, LightOptions& options) {
                 options.environment.layout = layout.layout;
                 options.environment.center = layout.center;
             },
-            "layout of the image" + explained(kLayouts))
-        ->type_name(names_of(kLayouts))
-        ->default_str("attribute or shape");
-    command->add_option("--layer", options.environment.layer, "layer or part of an OpenEXR environment")
-        ->default_str("RGB or the only layer");
+            "arrangement of directions in the image\n"
+            "default: the attribute of an OpenEXR file; else 2:1: lat-long, 1:6: cube, cross: cube-faces" +
+                explained(kLayouts))
+        ->type_name("LAYOUT")
+        ->default_str("by the file");
+    command
+        ->add_option("--layer", options.environment.layer,
+                     "name of the layer or part of an OpenEXR image to read\n"
+                     "default: the channels without a layer name, else the only layer")
+        ->default_str("by the file");
     choice(command, "--bad-pixels", options.environment.bad_pixels, kBadPixels,
-           "handling of negative, infinite and NaN pixels", "error");
+           "handling of negative, infinite and NaN pixels of an image", "error");
 }
 
 void check_light_options(const CLI::App& command, bool has_lights) {

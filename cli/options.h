@@ -97,7 +97,8 @@ void add_seed(CLI::App* command, std::uint64_t& seed);
 /// Adds --enclosed.
 void add_enclosed(CLI::App* command, Inside& inside);
 /// Line of help about files of light.
-inline constexpr const char* kLightFiles = "FILE: environment (.exr, .hdr, .png, .jpg) or light (.json)";
+inline constexpr const char* kLightFiles =
+    "FILE: environment image (.exr, .hdr, .png, .jpg) or light file (.json, from prt project)";
 /// Adds --lights for commands that use several; `text` says what for.
 CLI::Option* add_lights(CLI::App* command, std::vector<Path>& lights, const std::string& text);
 /// Adds --lights for commands that use one light, which may be missing.

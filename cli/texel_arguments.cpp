@@ -59,23 +59,27 @@ TexelRoom unwrapped(const TexelArguments& a, const Path& path, GltfDocument& doc
 CLI::Option* add_texels(CLI::App* command, TexelArguments& a, const std::string& text) {
     CLI::Option* texels =
         Suboptions("--texels", "N|N/m", text, [&a](const std::string& value) { parse_size(value, a.texels); })
-            .detail("N: texels along each side of a texture")
-            .detail("N/m: texels per metre, on average over the surface")
-            .flag("unwrap", "make charts and a new set of coordinates if the existing ones do not fit",
+            .detail("N: number of texels along each side of a texture, 1 to 8192")
+            .detail("N/m: mean number of texels per metre of surface, as 64/m")
+            .flag("unwrap", "create a new set of texture coordinates if that of uv=N is missing or overlaps",
                   [&a] { a.unwrap = true; })
-            .whole_number("uv", 0, 7, "texture coordinates, TEXCOORD_N [1]",
+            .whole_number("uv", 0, 7, "set of texture coordinates to use, TEXCOORD_N, 0 to 7 [1]",
                           [&a](int set) { a.texels.uv_set = set; })
             .key("atlas", names_of(kAtlasModes),
-                 "one texture, or one per object; auto: one if charts do not overlap",
+                 "one: a texture for all objects; each: a texture per object [auto]",
                  [&a](const std::string& name) { a.texels.atlases = chosen("--texels", kAtlasModes, name); })
+            .detail("  auto: one if the charts of all objects do not overlap, else each")
             .add(command);
-    Suboptions("--high-poly", "FILE", "detailed model, traced in place of the scene",
+    Suboptions("--high-poly", "FILE",
+               "trace rays against this detailed model instead of the scene\n"
+               "needs --texels: a texel gets the value of the detailed surface along its normal",
                [&a](const std::string& file) {
                    if (file.empty())
                        throw CLI::ValidationError("--high-poly", "the name of the file is empty");
                    a.high_poly = file;
                })
-        .number("distance", 1e-9, 1e9, "maximum distance of its surface, metres [1/50 of the scene's size]",
+        .number("distance", 1e-9, 1e9,
+                "maximum distance from scene to detailed model, metres [scene diagonal / 50]",
                 [&a](double metres) { a.distance = metres; })
         .add(command);
     a.option = texels;

@@ -61,12 +61,16 @@ void add_view(CLI::App* command, View& view) {
     command
         ->add_option_function<std::string>(
             "--size", [&view](const std::string& text) { parse_size(text, view.width, view.height); },
-            "width and height in pixels")
+            "width and height of the picture in pixels, 1 to 16384 each")
         ->type_name("WxH")
         ->default_str("1280x720");
-    vector_option(command, "--camera", view.camera, "position of the camera, metres", "sees the whole scene");
-    vector_option(command, "--look-at", view.look_at, "target of the camera, metres", "center of the scene");
-    command->add_option("--fov", view.field_of_view_degrees, "vertical field of view, degrees")
+    vector_option(command, "--camera", view.camera, "position of the camera, metres",
+                  "whole scene is visible");
+    vector_option(command, "--look-at", view.look_at, "point that the camera looks at, metres",
+                  "center of the scene");
+    command
+        ->add_option("--fov", view.field_of_view_degrees,
+                     "vertical field of view of the camera in degrees, 1 to 170")
         ->capture_default_str()
         ->check(real_in(1, 170));
 }
@@ -76,7 +80,10 @@ CLI::Option* add_exposure(CLI::App* command, Exposure& exposure) {
         ->add_option_function<std::string>(
             "--exposure", [&exposure](const std::string& text) { exposure = parse_exposure(text); },
             "exposure in stops, or auto, auto+1, auto-0.5\n"
-            "auto: the mean luminance of the visible model becomes 0.22")
+            "STOPS: radiance is multiplied by 2^STOPS; 0: unchanged; -100 to 100\n"
+            "auto: the mean luminance of the model becomes 0.22; in prt render, of its visible part\n"
+            "auto+1: one stop brighter than auto, a factor of 2\n"
+            "used for .png pictures (prt render) and --colors unlit (prt relight)")
         ->type_name("STOPS")
         ->default_str("auto");
 }

@@ -35,32 +35,35 @@ void add_volume(CLI::App* command, VolumeArguments& arguments) {
             throw CLI::ValidationError("--volume", "METRES and probes cannot be combined");
     };
     arguments.option =
-        Suboptions("--volume", "METRES", "also bake a volume of probes, which lights moving objects",
-                   [&volume, check_one](const std::string& text) {
-                       const std::optional<double> metres = real_number(text);
-                       if (!metres || !(*metres >= 1e-9 && *metres <= static_cast<double>(kFarthestVertex)))
-                           throw CLI::ValidationError("--volume",
-                                                      "'" + text + "' is not a distance in metres");
-                       check_one(volume.probes > 0);
-                       volume.spacing = *metres;
-                   })
-            .detail("METRES: distance of probes near surfaces; larger in open space")
+        Suboptions(
+            "--volume", "METRES", "also bake a volume of probes, for moving objects; default: no volume",
+            [&volume, check_one](const std::string& text) {
+                const std::optional<double> metres = real_number(text);
+                if (!metres || !(*metres >= 1e-9 && *metres <= static_cast<double>(kFarthestVertex)))
+                    throw CLI::ValidationError("--volume", "'" + text + "' is not a distance in metres");
+                check_one(volume.probes > 0);
+                volume.spacing = *metres;
+            })
+            .detail("METRES: distance between probes near surfaces; it is larger in open space")
             .whole_number("probes", 125, 1 << 28,
-                          "in place of METRES: the densest volume with at most N probes",
+                          "instead of METRES: the densest volume with at most N probes, 125 to 2^28",
                           [&volume, check_one](int count) {
                               check_one(volume.spacing > 0);
                               volume.probes = static_cast<std::size_t>(count);
                           })
             .number("error", 0, 0.99,
-                    "split cells, down to 1/4, to reach this relative L2 error between probes [0: off]",
+                    "split cells, down to METRES / 4, until the relative L2 error is X [0: no split]",
                     [&volume](double error) { volume.error = error; })
-            .whole_number("order", 2, kMaxIncidentOrder, "SH order of the incident light at a probe [3]",
+            .whole_number("order", 2, kMaxIncidentOrder,
+                          "SH order of the light that arrives at a probe, 2 to 4 [3]",
                           [&volume](int order) { volume.order = order; })
             .number("fit", 0, 100,
-                    fmt::format("least-squares fit to X points per probe; 0: no fit [1 from {} rays on]",
-                                kRaysWorthAFit),
+                    fmt::format(
+                        "fit probes to X points per probe; 0: no fit [1 if --rays is at least {}, else 0]",
+                        kRaysWorthAFit),
                     [&volume](double points) { volume.fit_points = points; })
-            .key("bounds", "x0,y0,z0,x1,y1,z1", "box of the volume, world space, metres [box of the scene]",
+            .key("bounds", "x0,y0,z0,x1,y1,z1",
+                 "corners of the volume, world space, metres [box of the scene]",
                  [&arguments](const std::string& text) { arguments.bounds = parse_bounds(text); })
             .add(command);
 }

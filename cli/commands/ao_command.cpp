@@ -264,16 +264,23 @@ void run(AoArguments a, Session& session) {
 }
 
 void add_outputs(CLI::App* command, AoArguments& a) {
-    CLI::Option* texels = add_texels(command, a.textures, "bake textures instead of vertices");
-    command->add_option("--attribute", a.attribute, "attribute to write, named _...")
-        ->default_str("COLOR_0, times its colors")
+    CLI::Option* texels =
+        add_texels(command, a.textures, "bake textures of this size instead of vertices; default: vertices");
+    command
+        ->add_option("--attribute", a.attribute,
+                     "vertex attribute to write: COLOR_0 or a name with leading _\n"
+                     "value: fraction of uniform light that arrives, 0 to 1\n"
+                     "default: COLOR_0, whose existing colors are multiplied by this value")
+        ->default_str("COLOR_0")
         ->excludes(texels);
     command->add_flag("--bent-normals", a.outputs.bent_normals,
-                      "also write bent normals, in the frame of the scene\n"
+                      "also write bent normals: the mean directions that are not blocked\n"
+                      "in the coordinate frame of the scene\n"
                       "vertices: the attribute _BENT_NORMAL; textures: named in extras.prtkit of materials");
     command
         ->add_flag("--occluders", a.outputs.occluders,
-                   "write occlusion volumes of moving objects instead\nthey are for contact shadows\n"
+                   "write occlusion volumes of moving objects instead of vertex values\n"
+                   "occlusion volumes are for contact shadows\n"
                    "one volume for each object that moves as one part, and for each bone of a skinned figure")
         ->excludes(texels)
         ->excludes("--attribute")
@@ -292,13 +299,14 @@ void add_falloff(CLI::App* command, Falloff& falloff) {
                         at = end + 1;
                     }
             },
-            "obscurance: surfaces at this distance (metres) block half\n"
-            "several distances with shares: 2:97,300:3")
+            "let surfaces at DISTANCE metres block half of the light\n"
+            "nearer surfaces block more, farther ones less (obscurance)\n"
+            "SHARE: weight of a distance, as 2:97,300:3 for 97 % and 3 %\n"
+            "default: surfaces block all light at any distance")
         ->allow_extra_args(false)
         ->type_name("DISTANCE[:SHARE],...");
     command
-        ->add_option("--max-distance", falloff.farthest,
-                     "distance beyond which surfaces do not block, metres")
+        ->add_option("--max-distance", falloff.farthest, "ignore surfaces beyond X metres; default: no limit")
         ->check(above_zero());
 }
 
@@ -308,14 +316,17 @@ void add_ao(CLI::App& app, Session& session) {
     CLI::App* command = app.add_subcommand("ao", "Bake ambient occlusion and bent normals for any engine");
     auto& a =
         arguments_for<AoArguments>(command, [&session](const AoArguments& given) { run(given, session); });
-    command->add_option("scene", a.scene, "glTF 2.0 scene, .gltf or .glb")->required()->check(named);
-    add_output(command, a.output, "model to write, .glb");
+    command->add_option("scene", a.scene, "scene to bake: glTF 2.0, .gltf or .glb")->required()->check(named);
+    add_output(command, a.output, "write the scene with its occlusion to this file, .glb");
     add_outputs(command, a);
     add_falloff(command, a.options.tracer.falloff);
-    command->add_option("--rays", a.rays, "rays per vertex, texel or occluder point")
+    command
+        ->add_option("--rays", a.rays,
+                     "number of rays per vertex, texel or point\n"
+                     "point: of an occlusion volume of --occluders")
         ->check(CLI::Range(1, kMaxRays))
         ->default_str("1024; --occluders: 256");
-    add_fit(command, a.options.fit, "points at which the occlusion of vertices is measured");
+    add_fit(command, a.options.fit, "points where the occlusion of vertices is measured");
     command->get_option("--texels")->excludes("--fit");
     add_no_shadow(command, a.no_shadow);
     add_back_sides(command, a.back_sides);

@@ -47,18 +47,22 @@ struct BakeArguments {
 };
 
 constexpr Choice<BakeMethod> kBakeMethods[] = {
-    {"trace", BakeMethod::trace, "rays"},
-    {"raster", BakeMethod::raster, "depth maps from many directions, by OpenGL; direct light only"}};
+    {"trace", BakeMethod::trace, "rays, traced by the processor of --device"},
+    {"raster", BakeMethod::raster,
+     "depth maps from --rays directions, drawn by OpenGL on a GPU; direct light only"}};
 constexpr Choice<std::optional<TransferStorage>> kStorages[] = {
-    {"auto", std::nullopt, "float16 if its rounding is below 1/10 of the sampling error, else float32"},
+    {"auto", std::nullopt,
+     "float16 if its rounding error is below 1/10 of the noise of the rays, else float32"},
     {"float16", TransferStorage::float16, "2 bytes per coefficient"},
     {"float32", TransferStorage::float32, "4 bytes per coefficient"}};
-constexpr Choice<bool> kDenoise[] = {{"on", true, "filter noise over the surface"},
-                                     {"off", false, "keep the values of the rays"}};
+constexpr Choice<bool> kDenoise[] = {
+    {"on", true, "smooth light over the surface, as far as its differences are noise"},
+    {"off", false, "write the traced values with their noise"}};
 constexpr Choice<LampMode> kLampModes[] = {
-    {"all", LampMode::all, "direct and bounced light"},
-    {"indirect", LampMode::indirect, "bounced light only; the renderer adds shadowed lamps"},
-    {"none", LampMode::none, "no light"}};
+    {"all", LampMode::all, "direct light and bounces"},
+    {"indirect", LampMode::indirect,
+     "bounces only, for renderers that add the direct light of lamps with shadows"},
+    {"none", LampMode::none, "no light of lamps: the bake contains only light of the sky"}};
 
 int parse_bounces(const std::string& text) {
     if (text == "inf")
@@ -127,7 +131,8 @@ void add_transport(CLI::App* command, BakeOptions& options) {
     command
         ->add_option_function<std::string>(
             "--bounces", [&options](const std::string& text) { options.bounces = parse_bounces(text); },
-            "bounces of light between surfaces; inf: all")
+            "number of bounces between surfaces; 0: direct light only\n"
+            "N: 0 to 10000; inf: all bounces, until the remaining light is negligible")
         ->type_name("N|inf")
         ->default_str("0");
     command
@@ -146,17 +151,18 @@ void add_transport(CLI::App* command, BakeOptions& options) {
                     options.subsurface.media.push_back(std::move(choice));
                 }
             },
-            "subsurface scattering in a material, or in all\n"
-            "MEDIUM: a name, or sr,sg,sb,ar,ag,ab: reduced scattering and absorption, 1/mm\n"
+            "add subsurface scattering; without MATERIAL=: to all materials\n"
+            "MEDIUM: a name from the list below, or six numbers sr,sg,sb,ar,ag,ab in 1/mm\n"
+            "sr,sg,sb: reduced scattering of red, green and blue light; ar,ag,ab: absorption\n"
             "names: " +
                 names_of_media() +
                 "\n"
-                "repeat the option for several materials")
+                "repeat the option for several materials; default: only KHR_materials_volume scatters")
         ->allow_extra_args(false) // one each time, so that the scene may follow
         ->type_name("[MATERIAL=]MEDIUM");
     command
         ->add_option("--metres-per-unit", options.subsurface.metres_per_unit,
-                     "length unit of the scene, metres; for subsurface scattering")
+                     "length of one unit of the scene in metres; only for --subsurface")
         ->capture_default_str()
         ->check(real_in(1e-9, 1e9));
     add_enclosed(command, options.repairs.inside);
@@ -171,43 +177,48 @@ LampGroup parse_group(const std::string& text) {
 }
 
 void add_lamps(CLI::App* command, LampOptions& lamps) {
-    Suboptions("--lamps", names_of(kLampModes), "light of lamps and emissive materials",
+    Suboptions("--lamps", names_of(kLampModes), "part of the light of lamps that is baked",
                [&lamps](const std::string& name) { lamps.mode = chosen("--lamps", kLampModes, name); })
+        .detail("lamps: lights of the scene (KHR_lights_punctual) and emissive materials")
         .detail(explained(kLampModes).substr(1))
-        .number("radius", 0, 1e9, "radius of point and spot lights, metres; softens their shadows [0]",
+        .number("radius", 0, 1e9, "radius of point and spot lights, metres; larger: softer shadows [0]",
                 [&lamps](double metres) { lamps.radius = metres; })
-        .whole_number("rays", 1, kMaxRays, "rays from a receiver to the lamps of a name [64]",
+        .whole_number("rays", 1, kMaxRays, "rays from a vertex, texel or probe to all lamps of one name [64]",
                       [&lamps](int rays) { lamps.rays = rays; })
-        .key("group", "NAME=PATTERN", "one term for all lamps that match; *: any letters; repeatable",
+        .key("group", "NAME=PATTERN", "combine lamps whose names match PATTERN into one lamp NAME",
              [&lamps](const std::string& text) { lamps.groups.push_back(parse_group(text)); })
         .repeatable()
+        .detail("  PATTERN: * matches any letters, ? matches one letter; repeat group= for several groups")
         .add(command)
         ->default_str("all");
 }
 
 void add_method(CLI::App* command, BakeOptions& options) {
-    choice(command, "--denoise", options.repairs.denoise, kDenoise, "noise filter", "on");
+    choice(command, "--denoise", options.repairs.denoise, kDenoise,
+           "removal of the noise of rays from the baked light", "on");
     add_device(command, options.tracer);
-    add_fit(command, options.fit, "points at which light is measured");
-    Suboptions("--method", names_of(kBakeMethods), "how visibility is computed",
+    add_fit(command, options.fit, "points where the light of vertices is measured");
+    Suboptions("--method", names_of(kBakeMethods), "method that finds which directions are blocked",
                [&options](const std::string& name) {
                    options.tracer.method = chosen("--method", kBakeMethods, name);
                })
         .detail(explained(kBakeMethods).substr(1))
-        .whole_number("resolution", 16, 16384, "texels along each side of a depth map [1024]",
+        .whole_number("resolution", 16, 16384,
+                      "for raster: number of texels along each side of a depth map [1024]",
                       [&options](int texels) { options.tracer.raster_resolution = texels; })
         .add(command)
         ->default_str("trace");
 }
 
 void add_refinement(CLI::App* command, BakeArguments& a) {
-    Suboptions("--refine", "ERROR", "split triangles until direct light has this relative L2 error",
+    Suboptions("--refine", "ERROR", "split triangles until light between vertices has at most this error",
                [&a](const std::string& text) {
                    if (const std::string wrong = above_zero()(text); !wrong.empty())
                        throw CLI::ValidationError("--refine", wrong);
                    a.finer.refine = real_number(text);
                })
-        .detail("ERROR: interpolation error over the surface, as 0.02; the written mesh has the new vertices")
+        .detail("ERROR: relative L2 interpolation error of direct light over the surface, as 0.02 (2 %)")
+        .detail("the written mesh contains the new vertices; default: no triangle is split")
         .whole_number("vertices", 1, std::numeric_limits<int>::max(),
                       "maximum number of vertices [4 x those of the scene, at least 20000]",
                       [&a](int count) { a.finer.max_vertices = static_cast<std::size_t>(count); })
@@ -446,18 +457,22 @@ void add_bake(CLI::App& app, Session& session) {
         app.add_subcommand("bake", "Bake transfer of a glTF scene at vertices, texels and probes");
     auto& a = arguments_for<BakeArguments>(command,
                                            [&session](const BakeArguments& given) { run(given, session); });
-    command->add_option("scene", a.scene, "glTF 2.0 scene, .gltf or .glb")->required()->check(named);
-    add_output(command, a.output, "baked .glb to write");
-    command->add_option("--order", a.options.order, "SH order N, 1 to 10: N² coefficients")
+    command->add_option("scene", a.scene, "scene to bake: glTF 2.0, .gltf or .glb")->required()->check(named);
+    add_output(command, a.output, "write the scene with its transfer to this file, .glb");
+    command->add_option("--order", a.options.order, "SH order N of the transfer, 1 to 10: N² coefficients")
         ->capture_default_str()
         ->check(CLI::Range(1, kMaxOrder));
-    CLI::Option* rays =
-        command->add_option("--rays", a.options.rays, "rays per receiver; directions for --method raster")
-            ->capture_default_str()
-            ->check(CLI::Range(1, kMaxRays));
+    CLI::Option* rays = command
+                            ->add_option("--rays", a.options.rays,
+                                         "number of rays per vertex, texel or probe\n"
+                                         "with --method raster: number of directions of depth maps")
+                            ->capture_default_str()
+                            ->check(CLI::Range(1, kMaxRays));
     command
-        ->add_option("--target-error", a.options.target_error,
-                     "relative L2 noise of direct light; chooses the rays of each receiver")
+        ->add_option(
+            "--target-error", a.options.target_error,
+            "trace rays until direct light has at most this relative L2 noise\n"
+            "0.01: 1 %; replaces --rays: the number of rays differs between vertices; default: --rays")
         ->check(above_zero())
         ->excludes(rays);
     add_transport(command, a.options);
@@ -467,13 +482,13 @@ void add_bake(CLI::App& app, Session& session) {
     add_method(command, a.options);
     add_refinement(command, a);
     add_back_sides(command, a.back_sides);
-    add_texels(command, a.texels, "bake a lightmap instead of vertices")
+    add_texels(command, a.texels, "bake lightmaps of this size instead of vertices; default: vertices")
         ->excludes(command->get_option("--fit")); // texels measure light at their centers
     add_volume(command, a.volume);
     add_instances(command, a.instances);
     add_levels(command, a.levels);
-    choice(command, "--storage", a.options.memory.storage, kStorages, "precision of the written transfer",
-           "auto");
+    choice(command, "--storage", a.options.memory.storage, kStorages,
+           "number format of the coefficients in the file", "auto");
     add_seed(command, a.options.seed);
     add_reading(command, a.reading, &a.options.memory.limit);
     add_smooth_normals(command, a.reading);

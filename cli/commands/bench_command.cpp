@@ -94,9 +94,11 @@ void add_bench_device(CLI::App* command, BenchArguments& a, CLI::Option* scene) 
                     throw CLI::ValidationError("--device", "the name is empty");
                 a.options.gpu = a.list_devices ? "" : text;
             },
-            "GPU to bake on\n"
-            "N, NAME: a GPU by its number or part of its name\n"
-            "list: print the GPUs and exit")
+            "GPU to measure, in addition to the CPU; default: automatic\n"
+            "N: the GPU with this number in the list\n"
+            "NAME: the GPU whose name in the list contains NAME\n"
+            "list: print the list of GPUs and exit; needs no scene\n"
+            "default: a hardware GPU before a software driver, then the one with the largest memory")
         ->type_name("N|NAME|list");
 }
 
@@ -107,22 +109,24 @@ void add_bench(CLI::App& app, Session& session) {
         app.add_subcommand("bench", "Measure speed and error of bakes on all devices and by all methods");
     auto& a = arguments_for<BenchArguments>(command,
                                             [&session](const BenchArguments& given) { run(given, session); });
-    CLI::Option* scene = command->add_option("scene", a.scene, "glTF 2.0 scene, .gltf or .glb")->check(named);
+    CLI::Option* scene =
+        command->add_option("scene", a.scene, "scene to bake: .gltf or .glb; not for --device list")
+            ->check(named);
     add_bench_device(command, a, scene);
-    command->add_option("--order", a.options.order, "SH order N, 1 to 10: N² coefficients")
+    command->add_option("--order", a.options.order, "SH order N of the transfer, 1 to 10: N² coefficients")
         ->capture_default_str()
         ->check(CLI::Range(1, kMaxOrder));
     command
         ->add_option_function<std::string>(
             "--rays", [&a](const std::string& text) { set_rays(text, a.options); },
-            "range of rays per receiver; doubled from FROM to TO")
+            "rays per vertex: FROM, doubled in each next run up to TO")
         ->type_name("FROM..TO")
         ->default_str(fmt::format("{}..{}", a.options.fewest_rays, a.options.max_rays));
-    Suboptions("--method", "", "settings of depth maps", nullptr)
-        .whole_number("resolution", 16, 16384, "texels along each side of a depth map [1024]",
+    Suboptions("--method", "", "setting of the runs that use depth maps", nullptr)
+        .whole_number("resolution", 16, 16384, "number of texels along each side of a depth map [1024]",
                       [&a](int texels) { a.options.raster_resolution = texels; })
         .add(command);
-    command->add_option("--seconds", a.options.max_seconds, "skip runs that take longer")
+    command->add_option("--seconds", a.options.max_seconds, "skip runs that would take longer than X seconds")
         ->capture_default_str()
         ->check(real_in(0, 1e9));
     add_seed(command, a.options.seed);

@@ -592,8 +592,10 @@ void add_compress(CLI::App& app, Session& session) {
         resolve(*command, given);
         run(given, session);
     });
-    command->add_option("baked", a.baked, "output of prt bake")->required()->check(named);
-    add_output(command, a.output, "compressed .glb to write");
+    command->add_option("baked", a.baked, "bake to compress: the output of prt bake")
+        ->required()
+        ->check(named);
+    add_output(command, a.output, "write the compressed model to this file, .glb");
     add_options(command, a);
 }
 

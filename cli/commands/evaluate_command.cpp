@@ -23,9 +23,11 @@ namespace {
 
 enum class Measure { sweep, budget, volume };
 constexpr Choice<Measure> kMeasures[] = {
-    {"sweep", Measure::sweep, "error against bytes and shader cost, for several methods; takes minutes"},
-    {"budget", Measure::budget, "causes of the error over the surface, with advice; bakes once more"},
-    {"volume", Measure::volume, "error of the volume against path tracing, by distance from surfaces"}};
+    {"sweep", Measure::sweep,
+     "error against bytes and shader cost, for several compression methods; takes minutes"},
+    {"budget", Measure::budget,
+     "parts of the surface error by cause, with advice; path traces and bakes once more"},
+    {"volume", Measure::volume, "error of the probe volume against path tracing, by distance from surfaces"}};
 
 struct EvaluateArguments {
     Path baked, shipped;
@@ -155,7 +157,9 @@ void add_measures(CLI::App* command, std::set<Measure>& measures) {
                 for (const std::string& name : names)
                     measures.insert(chosen("--measure", kMeasures, name));
             },
-            "further measurements; repeat the option for each" + explained(kMeasures))
+            "further measurement of the files; repeat the option for several\n"
+            "default: only the errors of the second file" +
+                explained(kMeasures))
         ->allow_extra_args(false) // one each time, so that the files may follow
         ->type_name(names_of(kMeasures));
 }
@@ -169,14 +173,24 @@ void add_evaluate(CLI::App& app, Session& session) {
         check_light_options(*command, !given.lights.empty());
         run(given, session);
     });
-    command->add_option("baked", a.baked, "output of prt bake, the reference")->required()->check(named);
+    command->add_option("baked", a.baked, "bake that is the reference: output of prt bake")
+        ->required()
+        ->check(named);
     command->add_option("shipped", a.shipped, "output of prt compress, or another bake of the same scene")
         ->check(named);
-    CLI::Option* lights = add_lights(command, a.lights, "lights under which errors are measured")
+    CLI::Option* lights = add_lights(command, a.lights,
+                                     "light under which errors are measured\n"
+                                     "uniform, overcast, sun: three built-in lights")
                               ->default_str("uniform, overcast, sun");
     add_light_options(command, a.light_options);
-    add_suns(command, a.suns, "suns in the images; light without them is also measured", "auto");
-    command->add_option("--rotations", a.rotations, "number of rotations of each light about +Y")
+    add_suns(command, a.suns,
+             "number of suns of --lights for which a renderer has shadow maps\n"
+             "errors are measured with these suns in the sky, and with these suns separate",
+             "auto");
+    command
+        ->add_option("--rotations", a.rotations,
+                     "number of rotations about +Y of each file of --lights\n"
+                     "equally spaced over 360 degrees, 1 to 64; 1: only the rotation of --rotate")
         ->capture_default_str()
         ->check(CLI::Range(1, 64))
         ->needs(lights);

@@ -173,29 +173,34 @@ void run(LobesArguments a, Session& session) {
 }
 
 void add_quality(CLI::App* command, LobesArguments& a) {
-    command->add_option("--lobes", a.fit.lobes, "lobes per vertex, 1 to 3, four bytes each")
+    command->add_option("--lobes", a.fit.lobes, "number of lobes per vertex, 1 to 3; a lobe has four bytes")
         ->capture_default_str()
         ->check(CLI::Range(std::size_t{1}, kMaxLobes));
-    command->add_option("--order", a.bake.order, "SH order of a lobe, 2 to 4")
+    command->add_option("--order", a.bake.order, "SH order N of the lobes, 2 to 4")
         ->capture_default_str()
         ->check(CLI::Range(2, kMaxLobeOrder));
-    Suboptions("--poses", "N", "poses of the animations, in addition to that of the file",
+    Suboptions("--poses", "N",
+               "number of animation poses, in addition to the pose of the file\n"
+               "lobes are fitted to the mean transfer of all poses; 1 to 4096",
                [&a](const std::string& text) {
                    const std::optional<int> poses = whole_number(text);
                    if (!poses || *poses < 1 || *poses > 4096)
                        throw CLI::ValidationError("--poses", "'" + text + "' is not a number in 1..4096");
                    a.poses = *poses;
                })
-        .whole_number("frames", 0, 4096, "frames that are baked to measure the error; 0: none [6]",
+        .whole_number("frames", 0, 4096,
+                      "number of frames at which the error is measured; 0: no measurement [6]",
                       [&a](int frames) { a.frames = frames; })
-        .key("animation", "NAME", "animation of the poses [all]",
+        .key("animation", "NAME", "name of the animation that contains poses and frames [all animations]",
              [&a](const std::string& name) { a.animation = name; })
         .add(command)
         ->default_str("8");
-    command->add_option("--rays", a.bake.rays, "rays per vertex and pose")
+    command->add_option("--rays", a.bake.rays, "number of rays per vertex and pose")
         ->capture_default_str()
         ->check(CLI::Range(1, kMaxRays));
-    command->add_option("--bounces", a.bake.bounces, "bounces of light between the surfaces of the model")
+    command
+        ->add_option("--bounces", a.bake.bounces,
+                     "number of bounces between surfaces of the model; 0: direct light")
         ->capture_default_str()
         ->check(CLI::Range(0, kMaxBounces));
 }
@@ -207,10 +212,10 @@ void add_lobes(CLI::App& app, Session& session) {
         app.add_subcommand("lobes", "Bake zonal lobes for skinned meshes, which rotate with the skin");
     auto& a = arguments_for<LobesArguments>(command,
                                             [&session](const LobesArguments& given) { run(given, session); });
-    command->add_option("model", a.model, "glTF 2.0 model with animations, .gltf or .glb")
+    command->add_option("model", a.model, "model to bake: glTF 2.0 with animations, .gltf or .glb")
         ->required()
         ->check(named);
-    add_output(command, a.output, "model to write, .glb");
+    add_output(command, a.output, "write the model with its lobes to this file, .glb");
     add_quality(command, a);
     add_device(command, a.bake.tracer);
     add_seed(command, a.bake.seed);

@@ -47,27 +47,38 @@ void add_make(CLI::App& app, Session& session) {
         run(std::move(given), session);
     });
     MakeRequest& r = a.request;
-    command->add_option("scene", r.scene, "glTF 2.0 scene, .gltf or .glb")->required()->check(named);
-    add_output(command, r.output, "compressed .glb to write");
-    add_lights(command, r.lights, "lights in which the model is used")->required();
+    command->add_option("scene", r.scene, "scene to bake and compress: glTF 2.0, .gltf or .glb")
+        ->required()
+        ->check(named);
+    add_output(command, r.output, "write the compressed model to this file, .glb");
+    add_lights(command, r.lights, "light in which the model will be used")->required();
     CLI::Option* error =
         command
             ->add_option(
                 "--max-error", r.goal.max_error,
-                "smallest file with at most this error\nrelative L2 over the surface, against path tracing\n"
-                "or 1.2 times the error of the highest order if that is larger")
+                "find the fewest bytes per vertex with at most this error\n"
+                "relative L2 over the surface against path tracing, root mean square over all lights\n"
+                "default: 0.03 (3 %), or 1.2 times the error of light and vertices if that is larger")
             ->check(above_zero())
             ->default_str("0.03");
     command
         ->add_option("--bytes-per-vertex", r.goal.bytes_per_vertex,
-                     "smallest error with at most this size, bases included")
+                     "find the minimum error with at most X bytes per vertex, with bases\n"
+                     "X: the bytes of its 32-bit words, plus the bytes of all bases / number of vertices")
         ->check(above_zero())
         ->excludes(error);
-    command->add_option("--seconds", r.goal.seconds, "approximate time limit, seconds: fewer rays and trials")
+    command
+        ->add_option("--seconds", r.goal.seconds,
+                     "limit the time to about X seconds by fewer rays and trials\n"
+                     "default: no limit")
         ->check(above_zero());
     command->add_flag("--best-effort", r.goal.best_effort,
-                      "write the closest result if nothing meets the goal");
-    command->add_option("--keep-bake", r.baked, "also write the bake")->check(named)->type_name("FILE.glb");
+                      "write the closest result if --max-error is not met; default: error");
+    command
+        ->add_option("--keep-bake", r.baked,
+                     "also write the bake before compression to this file; default: no file")
+        ->check(named)
+        ->type_name("FILE.glb");
     add_lamp_scale(command, r.reading.lamp_scale);
     add_no_shadow(command, r.no_shadow);
     add_back_sides(command, r.back_sides);

@@ -127,14 +127,14 @@ void add_project(CLI::App& app, Session& session) {
         command, [&session](const ProjectArguments& given) { run(given, session); });
     command
         ->add_option("environment", a.environment,
-                     "environment (.exr, .hdr, .png, .jpg); {face}: px, nx, py, ny, pz, nz")
+                     "image (.exr, .hdr, .png, .jpg); {face}: 6 files, px nx py ny pz nz")
         ->required()
         ->check(named);
-    add_output(command, a.output, "light to write, .json");
-    command->add_option("--order", a.order, "SH order N, 1 to 10: N² coefficients")
+    add_output(command, a.output, "write the light to this file, .json");
+    command->add_option("--order", a.order, "SH order N of the light, 1 to 10: N² coefficients")
         ->capture_default_str()
         ->check(CLI::Range(1, kMaxOrder));
-    add_suns(command, a.suns, "suns in the image, written separately from the coefficients", "0");
+    add_suns(command, a.suns, "number of suns that are written separately from the sky", "0");
     add_light_options(command, a.light_options);
     add_threads(command, a.threads);
     add_json(command, a.json);

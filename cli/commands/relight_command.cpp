@@ -30,10 +30,10 @@ enum class ColorKind {
     unlit,    ///< with an exposure, for unlit materials
 };
 constexpr Choice<ColorKind> kColors[] = {
-    {"radiance", ColorKind::radiance, "radiance for albedo 1, linear, float32"},
-    {"albedo", ColorKind::albedo, "radiance times the base color, linear, float32"},
+    {"radiance", ColorKind::radiance, "radiance of a surface with albedo 1; linear, float32"},
+    {"albedo", ColorKind::albedo, "radiance times the base color of the surface; linear, float32"},
     {"unlit", ColorKind::unlit,
-     "16-bit colors of unlit materials with an exposure, for Blender and other viewers"}};
+     "radiance times --exposure, 16 bits; materials become unlit; for Blender, viewers"}};
 
 struct RelightArguments {
     Path model, environment, output, json;
@@ -209,12 +209,15 @@ void add_relight(CLI::App& app, Session& session) {
         check_light_options(*command, !given.environment.empty());
         run(given, session);
     });
-    command->add_option("model", a.model, "baked or compressed .glb")->required()->check(named);
+    command->add_option("model", a.model, "model to light: output of prt bake or prt compress")
+        ->required()
+        ->check(named);
     add_light(command, a.environment);
-    add_output(command, a.output, "model to write, .glb; COLOR_0 is the light");
-    add_suns(command, a.suns, "suns in the light, shadowed by rays", "auto", &a.rays);
+    add_output(command, a.output, "write the model with light as vertex colors to this .glb");
+    add_suns(command, a.suns, "number of suns of --lights with sharp shadows, traced by rays", "auto",
+             &a.rays);
     add_lamps(command, a.lamps);
-    choice(command, "--colors", a.colors, kColors, "values of COLOR_0", "radiance");
+    choice(command, "--colors", a.colors, kColors, "values of the vertex colors, COLOR_0", "radiance");
     add_exposure(command, a.exposure);
     add_light_options(command, a.light_options);
     add_reading(command, a.reading);

@@ -77,16 +77,19 @@ struct RenderArguments {
 };
 
 constexpr Choice<Show> kShows[] = {
-    {"lit", Show::lit, "the lit model"},
-    {"clusters", Show::clusters, "a color for each cluster"},
-    {"error", Show::error, "error; white: contrast error of 10 % (--baked) or HDR-FLIP of 1 (--path-trace)"},
-    {"ao", Show::ao, "ambient occlusion"}};
-constexpr Choice<ToneMap> kToneMaps[] = {{"filmic", ToneMap::filmic, "with shoulder and toe"},
-                                         {"srgb", ToneMap::srgb, "sRGB curve, clipped at 1"}};
+    {"lit", Show::lit, "the model in the light of sky and lamps"},
+    {"clusters", Show::clusters, "a color for each cluster of a compressed model"},
+    {"error", Show::error,
+     "error against a reference\n"
+     "  --baked: contrast error, white: 10 %; --path-trace: HDR-FLIP, white: 1"},
+    {"ao", Show::ao, "ambient occlusion: the model under a uniform white sky, without lamps and textures"}};
+constexpr Choice<ToneMap> kToneMaps[] = {
+    {"filmic", ToneMap::filmic, "a film curve, which compresses dark and bright values softly"},
+    {"srgb", ToneMap::srgb, "the sRGB curve; values above 1 are clipped"}};
 constexpr Choice<Backend> kDevices[] = {
     {"auto", Backend::automatic, "a hardware GPU if there is one, else the CPU"},
-    {"cpu", Backend::cpu, "rays"},
-    {"gpu", Backend::gpu, "OpenGL 4.5, hardware or software"}};
+    {"cpu", Backend::cpu, "the CPU, by casting rays"},
+    {"gpu", Backend::gpu, "OpenGL 4.5 on a GPU, or on a software driver"}};
 
 constexpr int kUnshadowedOrder = 6;
 
@@ -567,30 +570,40 @@ void add_render(CLI::App& app, Session& session) {
         check_exposed(given, *command);
         run(given, session);
     });
-    command->add_option("model", a.model, ".gltf or .glb; without transfer, the sky casts no shadows")
+    command
+        ->add_option("model", a.model,
+                     "model to draw: .gltf or .glb; without transfer, the sky has no shadows")
         ->required()
         ->check(named);
     add_light(command, a.environment);
-    add_output(command, a.output, "picture to write, .png or .exr");
+    add_output(command, a.output, "write the picture to this file, .png or .exr");
     add_view(command, a.view);
-    choice(command, "--device", a.backend, kDevices, "processor that draws", "auto");
-    choice(command, "--show", a.look.show, kShows, "content of the picture", "lit");
-    command->add_option("--baked", a.baked, "bake, the reference of --show error")
+    choice(command, "--device", a.backend, kDevices,
+           "processor that draws the picture\n"
+           "path tracing always runs on the CPU",
+           "auto");
+    choice(command, "--show", a.look.show, kShows, "quantity that the picture shows", "lit");
+    command->add_option("--baked", a.baked, "bake of the model, needed by --show error without --path-trace")
         ->type_name("FILE")
         ->check(named);
     command
-        ->add_option("--path-trace", a.look.paths, "draw by path tracing with N paths per pixel, all bounces")
+        ->add_option("--path-trace", a.look.paths,
+                     "path trace the scene with N paths per pixel; ignores transfer\n"
+                     "traces all bounces; N: 2 to 1048576; default: the model is lit by its transfer\n"
+                     "with --show error: the path-traced picture is the reference")
         ->type_name("N")
         ->check(CLI::Range(2, 1 << 20));
     add_exposure(command, a.look.exposure);
-    choice(command, "--tone-map", a.look.tone_map, kToneMaps, "tone curve of .png files", "filmic");
-    command->add_option("--samples", a.view.samples, "samples per pixel along each axis")
+    choice(command, "--tone-map", a.look.tone_map, kToneMaps, "tone curve of .png pictures", "filmic");
+    command
+        ->add_option("--samples", a.view.samples,
+                     "samples along each axis of a pixel, 1 to 16: N x N per pixel")
         ->capture_default_str()
         ->check(CLI::Range(1, 16));
     command->add_flag("!--no-background", a.look.background,
-                      "draw a black background instead of the environment");
+                      "draw a black background; default: the image of --lights");
     add_light_options(command, a.light_options);
-    add_suns(command, a.lights.suns, "suns in the light, drawn with sharp shadows", "auto",
+    add_suns(command, a.lights.suns, "number of suns of --lights that are drawn with sharp shadows", "auto",
              &a.lights.sun_rays);
     add_lamps(command, a.lights.lamps);
     add_lamp_scale(command, a.lights.lamp_scale);

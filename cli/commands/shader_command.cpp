@@ -38,20 +38,22 @@ constexpr Choice<ShaderLanguage> kLanguages[] = {
     {"glsl450", ShaderLanguage::glsl450, "OpenGL 4.5"},
     {"glsl330", ShaderLanguage::glsl330, "OpenGL 3.3"},
     {"essl300", ShaderLanguage::essl300, "OpenGL ES 3.0, WebGL 2"},
-    {"vulkan", ShaderLanguage::vulkan, "GLSL for SPIR-V, and from there for HLSL"}};
+    {"vulkan", ShaderLanguage::vulkan, "GLSL for Vulkan, to convert to SPIR-V and then to HLSL"}};
 constexpr Choice<ConstantSource> kConstants[] = {
-    {"buffer", ConstantSource::buffer, "storage buffer"},
-    {"block", ConstantSource::block, "uniform block"},
-    {"texture", ConstantSource::texture, "float texture; available in all languages"}};
+    {"buffer", ConstantSource::buffer, "storage buffer; only for glsl450 and vulkan"},
+    {"block", ConstantSource::block, "uniform block; every driver allows 16 KB, which are 1024 constants"},
+    {"texture", ConstantSource::texture, "float texture"}};
 constexpr Choice<Stage> kStages[] = {
-    {"vertex", Stage::vertex, "relights vertices; of a lightmap: texels, by compute if the language has it"},
-    {"compute", Stage::compute, "computes the constants of a frame"},
-    {"fragment", Stage::fragment, "relights the texels of a lightmap by drawing"},
-    {"instances", Stage::instances, "vertex shader of instances that share transfer"},
-    {"volume", Stage::volume, "functions that look up the volume, for any language"},
-    {"volume-compute", Stage::volume_compute, "computes the texture that the volume functions read"},
-    {"occluders", Stage::occluders, "functions for contact shadows of moving objects, for any language"},
-    {"lobes", Stage::lobes, "functions that relight the lobes of prt lobes, for any language"}};
+    {"vertex", Stage::vertex,
+     "relights vertices; for a lightmap: texels, by compute shader if the language has it"},
+    {"compute", Stage::compute, "compute shader that computes the constants of a lighting"},
+    {"fragment", Stage::fragment, "fragment shader that relights the texels of a lightmap"},
+    {"instances", Stage::instances, "vertex shader for instances of prt bake --instances shared"},
+    {"volume", Stage::volume, "functions that read the light of the probe volume, for all languages"},
+    {"volume-compute", Stage::volume_compute,
+     "compute shader that writes the texture which the functions of volume read"},
+    {"occluders", Stage::occluders, "functions for contact shadows of moving objects, for all languages"},
+    {"lobes", Stage::lobes, "functions that relight figures of prt lobes, for all languages"}};
 
 /// Returns storage buffers if the language has them, otherwise a texture, which always has space.
 ConstantSource constants_for(ShaderLanguage language) {
@@ -203,11 +205,16 @@ void add_shader(CLI::App& app, Session& session) {
     CLI::App* command = app.add_subcommand("shader", "Write the shaders that relight a compressed model");
     auto& a = arguments_for<ShaderArguments>(
         command, [&session](const ShaderArguments& given) { run(given, session); });
-    command->add_option("model", a.model, "output of prt compress")->required()->check(named);
-    add_output(command, a.output, "GLSL to write");
-    choice(command, "--language", a.language, kLanguages, "shading language", "glsl450");
-    choice(command, "--constants", a.constants, kConstants, "storage of the constants",
-           "buffer if the language has it");
+    command->add_option("model", a.model, "model to relight: output of prt compress")
+        ->required()
+        ->check(named);
+    add_output(command, a.output, "write the GLSL source to this file");
+    choice(command, "--language", a.language, kLanguages, "shading language of the written source",
+           "glsl450");
+    choice(command, "--constants", a.constants, kConstants,
+           "GPU storage of the constants\n"
+           "constants: values that your program uploads for each lighting",
+           "buffer, else texture");
     choice(command, "--stage", a.stage, kStages, "shader to write", "vertex")->type_name("STAGE");
     add_reading(command, a.reading);
 }
