@@ -59,7 +59,7 @@ void add_volume(CLI::App* command, VolumeArguments& arguments) {
                           [&volume](int order) { volume.order = order; })
             .number("fit", 0, 100,
                     fmt::format(
-                        "fit probes to X points per probe; 0: no fit [1 if --rays is at least {}, else 0]",
+                        "fit probes to X points per cell; 0: no fit [1 if --rays is at least {}, else 0]",
                         kRaysWorthAFit),
                     [&volume](double points) { volume.fit_points = points; })
             .key("bounds", "x0,y0,z0,x1,y1,z1",

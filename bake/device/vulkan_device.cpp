@@ -2,6 +2,8 @@
 
 #include "device/vulkan_device.h"
 
+#include "prt/gpu_devices.h"
+
 #include <fmt/core.h>
 
 #include <algorithm>

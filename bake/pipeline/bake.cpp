@@ -8,6 +8,7 @@
 #include "plan/check_options.h"
 #include "plan/memory.h"
 #include "plan/transfer_terms.h"
+#include "prt/make_tracer.h"
 #include "prt/support/stopwatch.h"
 #include "scene/positions_without_area.h"
 

@@ -4,6 +4,7 @@
 #include "plan/memory.h"
 
 #include "plan/available_memory.h"
+#include "prt/bake_options.h"
 #include "prt/sh_basis.h"
 #include "prt/support/counted.h"
 #include "prt/support/error.h"

@@ -36,7 +36,7 @@ double SurfaceReference::relative_l2(const Transfer& direct) const {
         error += static_cast<double>(points_.receivers.areas[p]) * squared;
         norm += static_cast<double>(points_.receivers.areas[p]) * here;
     }
-    return norm > 0 ? std::sqrt(error / norm) : 0;
+    return error > 0 ? std::sqrt(error / norm) : 0;
 }
 
 } // namespace prt

@@ -3,6 +3,7 @@
 #include "prt/refine.h"
 
 #include "plan/plan.h"
+#include "prt/make_tracer.h"
 #include "prt/sh.h"
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"

@@ -5,6 +5,7 @@
 
 #include "prt/bake.h"
 #include "prt/error_measures.h"
+#include "prt/make_tracer.h"
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"
 #include "prt/surface_reference.h"

@@ -72,8 +72,10 @@ void add_make(CLI::App& app, Session& session) {
                      "limit the time to about X seconds by fewer rays and trials\n"
                      "default: no limit")
         ->check(above_zero());
-    command->add_flag("--best-effort", r.goal.best_effort,
-                      "write the closest result if --max-error is not met; default: error");
+    command
+        ->add_flag("--best-effort", r.goal.best_effort,
+                   "write the closest result if --max-error is not met; default: error")
+        ->needs(error);
     command
         ->add_option("--keep-bake", r.baked,
                      "also write the bake before compression to this file; default: no file")

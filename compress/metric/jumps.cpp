@@ -55,6 +55,12 @@ Eigen::MatrixXd rows_of_skies(std::span<const Lighting> skies, const TransferLay
     return rows;
 }
 
+/// Throws `Error` unless `surface` has an area for each receiver.
+void check_areas(const TransferView& reference, const ReceiverSurface& surface) {
+    if (surface.areas.size() != reference.receivers())
+        throw Error("the numbers of areas and of receivers of the transfer differ");
+}
+
 constexpr std::size_t kJumpsGrain = 256; ///< receivers or edges per task
 
 } // namespace
@@ -92,6 +98,7 @@ struct ClusterJumps::Lights {
 ClusterJumps::ClusterJumps(const TransferView& reference, const ReceiverSurface& surface,
                            const LightMetric& metric, int threads)
     : reference_(reference), surface_(surface), threads_(threads) {
+    check_areas(reference, surface);
     if (reference.layout() != metric.layout)
         throw Error("the metric and the transfer have different orders or terms");
     const Eigen::MatrixXd factor = factor_of(metric);
@@ -103,6 +110,7 @@ ClusterJumps::ClusterJumps(const TransferView& reference, const ReceiverSurface&
 ClusterJumps::ClusterJumps(const TransferView& reference, const ReceiverSurface& surface,
                            std::span<const Lighting> skies, int threads)
     : reference_(reference), surface_(surface), threads_(threads) {
+    check_areas(reference, surface);
     Lights lights{rows_of_skies(skies, reference.layout()).cast<float>(), 1, {}};
     lights.adapt_to(reference, surface.areas, threads);
     lights_ = std::make_unique<const Lights>(std::move(lights));

@@ -87,7 +87,10 @@ prt_status prt_instances_of_mesh(const prt_model* model, size_t mesh, size_t* fi
                                  prt_message* message) {
     return guarded(message, [&] {
         check_pointers(model, first, count);
-        const auto& of_meshes = instances_of(*model).of_meshes;
+        *first = *count = 0;
+        if (!model->instances)
+            return;
+        const auto& of_meshes = model->instances->of_meshes;
         if (mesh >= of_meshes.size())
             throw Error("the model has only " + prt::counted(of_meshes.size(), "mesh", "meshes"));
         *first = of_meshes[mesh].first;

@@ -3,6 +3,7 @@
 
 #include "lobe_profiles.h"
 #include "prt/sh.h"
+#include "prt/support/error.h"
 #include "prt/support/parallel.h"
 
 #include <algorithm>
@@ -253,6 +254,9 @@ void Coder::refit_profiles() {
 
 LobeModel code_lobes(const LobeTargets& targets, std::span<const Lobe> fitted, const LobeFitOptions& options,
                      const Progress& progress) {
+    check_targets(targets, options);
+    if (fitted.size() != targets.areas.size() * static_cast<std::size_t>(options.lobes))
+        throw Error("the number of fitted lobes is not the number of lobes of all vertices");
     LobeModel model{targets.order, options.lobes, {}, {}};
     std::vector<float> areas;
     for (const float area : targets.areas)

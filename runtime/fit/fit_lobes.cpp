@@ -3,6 +3,7 @@
 
 #include "prt/lobe_fit.h"
 
+#include "lobe_profiles.h"
 #include "lobe_start.h"
 #include "prt/sh.h"
 #include "prt/support/error.h"
@@ -123,6 +124,8 @@ void fit_vertex(int order, std::span<const double> target, const LobeFitOptions&
     }
 }
 
+} // namespace
+
 void check_targets(const LobeTargets& targets, const LobeFitOptions& options) {
     if (targets.order < 2 || targets.order > kMaxLobeOrder || options.lobes < 1 ||
         options.lobes > kMaxLobes || options.profiles < 1 || options.profiles > kMaxProfiles)
@@ -132,8 +135,6 @@ void check_targets(const LobeTargets& targets, const LobeFitOptions& options) {
     if (!std::ranges::all_of(targets.vectors, [](double v) { return std::isfinite(v); }))
         throw Error("lobes cannot be fitted: the transfer is not finite");
 }
-
-} // namespace
 
 std::vector<Lobe> fit_lobes(const LobeTargets& targets, const LobeFitOptions& options,
                             const Progress& progress) {

@@ -9,6 +9,10 @@
 
 namespace prt {
 
+/// Throws `Error` for a number of bands, lobes, profiles, vectors or areas that cannot be fitted, and for
+/// vectors that are not finite.
+void check_targets(const LobeTargets& targets, const LobeFitOptions& options);
+
 /// Returns the cost per band of a squared error of a profile times its factor: cost_l (2l + 1) / 4π.
 std::array<double, kMaxLobeOrder> profile_costs(int order, const LobeFitOptions& options);
 

@@ -4,6 +4,7 @@
 
 #include "prt/color.h"
 #include "prt/error_measures.h"
+#include "prt/support/error.h"
 
 #include <glm/geometric.hpp>
 
@@ -12,8 +13,18 @@
 #include <numeric>
 
 namespace prt {
+namespace {
+
+/// Throws `Error` unless both halves have `pixels` pixels.
+void check_sizes(const std::array<Image, 2>& halves, std::size_t pixels) {
+    if (halves[0].pixels.size() != pixels || halves[1].pixels.size() != pixels)
+        throw Error("the two halves of a reference picture, or its mask of surfaces, differ in size");
+}
+
+} // namespace
 
 Image mean_of(const std::array<Image, 2>& halves) {
+    check_sizes(halves, halves[0].pixels.size());
     Image mean = halves[0];
     for (std::size_t i = 0; i < mean.pixels.size(); ++i)
         mean.pixels[i] = 0.5f * (mean.pixels[i] + halves[1].pixels[i]);
@@ -21,6 +32,7 @@ Image mean_of(const std::array<Image, 2>& halves) {
 }
 
 double noise_of(const std::array<Image, 2>& halves, const std::vector<bool>& surfaces) {
+    check_sizes(halves, surfaces.size());
     double squares = 0, norm = 0;
     for (std::size_t i = 0; i < surfaces.size(); ++i)
         if (surfaces[i]) {
@@ -121,6 +133,7 @@ void add_contrast(std::vector<Block> blocks, PictureError& error) {
 
 PictureError picture_error(const Image& picture, const std::array<Image, 2>& halves,
                            const std::vector<bool>& surfaces, const FlipOptions& options) {
+    check_sizes(halves, surfaces.size());
     PictureError error;
     error.flip = hdr_flip(mean_of(halves), picture, options);
     error.relative_l2 = relative_l2(picture, halves, surfaces);

@@ -5,7 +5,7 @@ include_arrows.py REPOSITORY
 Every source belongs to the part with the longest folder that contains it. It may include headers of its own part, and of
 the parts and packages in its row. Standard headers are always allowed. In a library with layers, a source may include
 headers of its own layer and of lower ones. No folders include each other in a circle. A public header belongs to the folder
-of the source with its name, in its library; a public header without a source is a folder of its own.
+of the source with its name, in its part; HOMES lists the folders of public headers without such a source.
 """
 import pathlib
 import re
@@ -44,6 +44,25 @@ LAYERS = {
              "pipeline", "refine", "products/volumes", "products/occlusion", "products/lightmaps", "products/instances",
              "products/levels", "products/lobes", "studies"),
     "compress": ("tuning", "metric", "clusters", "coding", "pipeline", "search", "study"),
+}
+# Folders of public headers without a source of their name: their names, by folder.
+HOMES = {
+    "bake/scene": "bake_options texels trace_scene tracer_choice",
+    "bake/device": "gpu_devices gpu_failure",
+    "bake/trace": "tracer",
+    "bake/tracers": "make_tracer",
+    "bake/refine": "sides",
+    "bake/products/levels": "level_bake",
+    "compress/clusters": "compress_trace",
+    "compress/study": "baselines receiver_colors sweep",
+    "runtime/light": "check_light",
+    "runtime/sh": "color sh_basis",
+    "runtime/support": "bits counted glm_layout json_tree lfs_pointer progress stopwatch tangent_frame vector_lanes version",
+    "runtime/transfer": "volume_weights",
+    "runtime/c": "prt",
+    "runtime/fit": "lobe_fit suns",
+    "runtime/image": "image_size",
+    "runtime/scene/gltf": "animation encode_glb gltf refinement stored_transfer unread",
 }
 # Includes that are allowed although the table forbids them.
 EXCEPTIONS = {
@@ -89,13 +108,16 @@ class Headers:
 
 
 def include_folder(path, files):
-    """Returns the folder that a file counts for in the rules of layers and circles."""
+    """Returns the folder that a file counts for in the rules of layers and circles; None for an unlisted public header."""
     library, public, name = path.partition("/include/prt/")
     if not public:
         return str(pathlib.PurePosixPath(path).parent)
     stem = pathlib.PurePosixPath(name).stem
-    sources = [file for file in files if file.startswith(library + "/") and file.endswith(f"/{stem}.cpp")]
-    return str(pathlib.PurePosixPath(min(sources, key=len)).parent) if sources else path
+    for folder, stems in HOMES.items():
+        if folder.startswith(library) and stem in stems.split():
+            return folder
+    sources = [file for file in files if file.endswith(f"/{stem}.cpp") and part_of(file) == part_of(path)]
+    return str(pathlib.PurePosixPath(min(sources, key=len)).parent) if sources else None
 
 
 def layer_of(folder):
@@ -175,13 +197,15 @@ def main():
             if path is None:
                 continue
             folder, target = include_folder(source, files), include_folder(path, files)
-            if folder == target:
+            if None in (folder, target):
+                wrong.append(f"{source if folder is None else path}: HOMES does not list its folder")
+            if None in (folder, target) or folder == target:
                 continue
             includes.setdefault(folder, set()).add(target)
             if climbs(folder, target):
                 wrong.append(f"{source}: {folder} may not include the higher layer {target} ({path})")
     wrong += [f"{', '.join(sorted(circle))}: include each other in a circle" for circle in circles(includes)]
-    print(*wrong, sep="\n", end="\n" if wrong else "")
+    print(*dict.fromkeys(wrong), sep="\n", end="\n" if wrong else "")
     return 1 if wrong or not files else 0
 
 

@@ -2,7 +2,7 @@
 
 // Ambient occlusion, obscurance and bent normals, computed from transfer of order 2. Experimental.
 
-#include "prt/bake_options.h"
+#include "prt/bake.h"
 
 #include <glm/vec3.hpp>
 

@@ -171,11 +171,4 @@ struct EndlessLampLight : Error {
 BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& progress = {},
                 MeasureErrors errors = MeasureErrors::no);
 
-/// Estimates the peak memory of a bake in bytes. The estimate excludes the operator of the bounces, whose
-/// size is known only after some receivers are traced. `receivers`: number of receivers, including back
-/// sides; `triangles`: number of triangles of the scene; `numbers`: number of coefficients of a transfer
-/// vector, over all its terms and channels.
-double estimate_memory(const BakeOptions& options, std::size_t receivers, std::size_t triangles,
-                       std::size_t numbers);
-
 } // namespace prt

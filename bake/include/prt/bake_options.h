@@ -7,6 +7,7 @@
 #include "prt/texture.h"
 #include "prt/tracer_choice.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -120,5 +121,12 @@ struct BakeOptions {
     int threads = 0;              ///< number of threads; 0: all
     std::uint64_t seed = 0;       ///< seed of the random directions of rays
 };
+
+/// Estimates the peak memory of a bake in bytes. The estimate excludes the operator of the bounces, whose
+/// size is known only after some receivers are traced. `receivers`: number of receivers, including back
+/// sides; `triangles`: number of triangles of the scene; `numbers`: number of coefficients of a transfer
+/// vector, over all its terms and channels.
+double estimate_memory(const BakeOptions& options, std::size_t receivers, std::size_t triangles,
+                       std::size_t numbers);
 
 } // namespace prt

@@ -2,6 +2,7 @@
 
 // Compares speed and error of the bake of direct light on every backend and with every method.
 
+#include "prt/gpu_devices.h"
 #include "prt/make_tracer.h"
 #include "prt/scene.h"
 #include "prt/texture.h"
@@ -15,8 +16,9 @@ namespace prt {
 /// Settings of the comparison.
 struct BenchOptions {
     int order = 6; ///< order of the transfer
-    /// Number of rays per receiver of the first run of a series, at least 1, and of its last run; the number
-    /// doubles from run to run. For BakeMethod::raster these are numbers of directions.
+    /// Numbers of rays per receiver of the runs of a series: `fewest_rays`, at least 1, in the first run, and
+    /// twice as many in each next run, while the number is at most `max_rays`. For BakeMethod::raster these
+    /// are numbers of directions.
     int fewest_rays = 64, max_rays = 4096;
     int raster_resolution = 1024; ///< texels along each side of a depth map, for BakeMethod::raster
     /// GPU for the series with ray tracing on a GPU: its index in gpu_devices(), or a part of its name;

@@ -86,12 +86,13 @@ ErrorBudget error_budget(const SurfacePoints& points, const SurfaceRadiance& ref
                          const BandTruncation& cut, const InterpolatedRadiance& radiance,
                          BudgetMeasure measure = BudgetMeasure::relative);
 
-/// Returns the squared error that the order of `cut` causes in light with all bounces, relative as in
+/// Returns the squared error of light with all bounces if it consists only of the SH bands of `cut` times
+/// `cut.factors`; factors other than 1, as those of deringing, add to the error. Relative as in
 /// BudgetMeasure::relative. The bounces of `cut` are ignored. `reference` must be traced at `points`.
 SquaredError light_error(const SurfacePoints& points, const SurfaceRadiance& reference,
                          const BandTruncation& cut);
-/// Returns the squared error that the limited number of bounces of `cut` causes in the SH bands of `cut`,
-/// relative as in BudgetMeasure::relative. `reference` must be traced at `points`.
+/// Returns the squared error that the limited number of bounces of `cut` causes in the SH bands of `cut`
+/// times `cut.factors`, relative as in BudgetMeasure::relative. `reference` must be traced at `points`.
 SquaredError bounces_error(const SurfacePoints& points, const SurfaceRadiance& reference,
                            const BandTruncation& cut);
 

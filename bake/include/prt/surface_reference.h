@@ -30,8 +30,9 @@ public:
                      const Progress& progress = {});
 
     /// Returns the relative L2 error of `direct` at the points, weighted by area, after interpolation between
-    /// vertices; 0 if no light reaches any point. `direct` is the direct transfer of the scene's receivers:
-    /// one term with one channel, of order SurfaceReferenceOptions::order.
+    /// vertices; 0 without an error, infinity if no light reaches any point of the reference. `direct` is the
+    /// direct transfer of the scene's receivers: one term with one channel, of order
+    /// SurfaceReferenceOptions::order.
     double relative_l2(const Transfer& direct) const;
     /// Returns the number of points after those inside geometry were excluded.
     std::size_t points() const { return points_.size(); }

@@ -4,6 +4,7 @@
 
 #include "prt/baked_transfer.h"
 #include "prt/falloff.h"
+#include "prt/gpu_devices.h"
 
 #include <string>
 

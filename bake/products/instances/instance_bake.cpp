@@ -8,6 +8,7 @@
 #include "plan/check_options.h"
 #include "plan/memory.h"
 #include "products/instances/instance_light.h"
+#include "prt/make_tracer.h"
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"
 

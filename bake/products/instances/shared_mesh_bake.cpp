@@ -5,6 +5,7 @@
 #include "pipeline/direct_transfer.h"
 #include "pipeline/light_transport.h"
 #include "plan/transfer_terms.h"
+#include "prt/make_tracer.h"
 #include "prt/sh_basis.h"
 
 #include <algorithm>

@@ -4,6 +4,7 @@
 
 #include "plan/plan.h"
 #include "prt/instances.h"
+#include "prt/support/progress.h"
 
 #include <memory>
 #include <vector>

@@ -16,6 +16,7 @@
 #include "products/lightmaps/texel_filter.h"
 #include "products/lightmaps/texel_light.h"
 #include "prt/error_measures.h"
+#include "prt/make_tracer.h"
 #include "prt/support/counted.h"
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"

@@ -4,6 +4,7 @@
 
 #include "plan/check_options.h"
 #include "plan/plan.h"
+#include "prt/make_tracer.h"
 
 namespace prt {
 namespace {

@@ -15,6 +15,7 @@
 #include "products/volumes/probe_tracer.h"
 #include "products/volumes/refine_bricks.h"
 #include "prt/error_measures.h"
+#include "prt/make_tracer.h"
 #include "prt/support/error.h"
 #include "prt/support/parallel.h"
 #include "prt/support/stopwatch.h"
@@ -47,10 +48,10 @@ void check_volume_options(const VolumeOptions& volume, const BakeOptions& option
         throw Error(
             fmt::format("the error of a volume must be at least 0 and less than 1, not {:g}", volume.error));
     if (volume.error > 0 && volume.probes > 0)
-        throw Error("the error of a volume determines its number of probes; use --volume spacing=M instead "
-                    "of probes=N");
+        throw Error("the error of a volume determines its number of probes; give the probe spacing in "
+                    "metres instead of the number of probes");
     if (volume.fit_points && !(*volume.fit_points >= 0 && *volume.fit_points <= 100))
-        throw Error("the number of fit points per probe must be in 0..100");
+        throw Error("the number of fit points per cell must be in 0..100");
 }
 
 /// Number of points per cell for finding where light has errors.

@@ -27,12 +27,13 @@ class ClusterJumps {
 public:
     /// Prepares to measure jumps whose root mean square is taken over all lightings of `metric`. Uses
     /// `surface.areas` [receivers] and `surface.edges`. `threads` 0: all. Throws `Error` if the layouts of
-    /// `metric` and `reference` differ.
+    /// `metric` and `reference`, or the numbers of areas and receivers, differ.
     ClusterJumps(const TransferView& reference, const ReceiverSurface& surface, const LightMetric& metric,
                  int threads = 0);
     /// Prepares to measure jumps separately under each of `skies` at each of kRotationsOfJumps rotations.
     /// Uses `surface.areas` [receivers] and `surface.edges`. `threads` 0: all. Throws `Error` if a sky has
-    /// fewer bands than the layout of `reference`, or another number of lamps.
+    /// fewer bands than the layout of `reference` or another number of lamps, and if the numbers of areas and
+    /// receivers differ.
     ClusterJumps(const TransferView& reference, const ReceiverSurface& surface,
                  std::span<const Lighting> skies, int threads = 0);
     ~ClusterJumps();

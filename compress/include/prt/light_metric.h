@@ -52,9 +52,11 @@ LightMetric metric_of_family(LightFamily family, const TransferLayout& layout);
 std::vector<Lighting> members_of_family(LightFamily family, int order);
 
 /// Returns the mean of the second moments over `lights`, each scaled to the same energy (sum of squared
-/// coefficients of sky plus suns), and over all rotations about +Y. Ignores black lights and
-/// `Lighting::lamps`: lamps have strength 1 and are uncorrelated. Adds `natural_metric` with a hundredth of
-/// the power, so that every error has a cost. Throws `Error` if a light has fewer bands than the layout, if
+/// coefficients of sky plus suns), and over all rotations about +Y. The scale of the result is arbitrary. A
+/// direct term receives only the sky, other terms of distant light receive sky plus suns, as in `Lighting`.
+/// Ignores black lights and `Lighting::lamps`: lamps are uncorrelated, and have the same power relative to
+/// distant light as in `natural_metric`. Adds the distant part of `natural_metric` with a hundredth of the
+/// power, so that every error has a cost. Throws `Error` if a light has fewer bands than the layout, if
 /// all lights are black, if there are no lights, or if the layout has no term of distant light.
 LightMetric metric_of_lights(std::span<const Lighting> lights, const TransferLayout& layout);
 /// Returns the metric for skies without separate suns, by the other overload of `metric_of_lights`: direct

@@ -32,7 +32,8 @@ inline constexpr double kWhiteError = 0.1;
 
 /// Returns for each receiver the `heat_color` of its contrast error (`ContrastErrors::magnitudes`), divided
 /// by `kWhiteError`. `approximation` and `reference` are exit radiance; these and `areas` are [receivers].
-/// Throws `Error` for numbers that are not finite.
+/// All numbers must be finite, which is not
+/// checked.
 std::vector<glm::vec3> error_colors(std::span<const glm::vec3> reference,
                                     std::span<const glm::vec3> approximation, std::span<const float> areas);
 
@@ -43,7 +44,8 @@ inline constexpr double kWhiteSeam = 0.05;
 /// absolute difference of the signed contrast errors (`ContrastErrors::luminances`) at the two ends of an
 /// edge between two clusters. Receivers without such an edge are dark blue. `approximation` and `reference`
 /// are exit radiance. All arrays except `edges` are [receivers]; `clusters` is the cluster of each receiver.
-/// Throws `Error` for numbers that are not finite.
+/// All numbers must be finite, which is not
+/// checked.
 std::vector<glm::vec3> seam_colors(std::span<const glm::vec3> reference,
                                    std::span<const glm::vec3> approximation, std::span<const float> areas,
                                    std::span<const Edge> edges, std::span<const std::uint16_t> clusters);

@@ -44,8 +44,8 @@ public:
     std::size_t rows() const { return rows_; }
 
     /// Computes all constants for `lighting` and writes them to `constants` [rows() or more], (r, g, b, 0)
-    /// each. Allocates nothing. Throws `Error` if `lighting` has fewer than `order()` bands, or another
-    /// number of lamps than the layout.
+    /// each. Allocates nothing unless it throws. Throws `Error` if the sky or the suns of `lighting` have
+    /// fewer than `order()` bands, or if `lighting.lamps` has neither 0 nor layout().lamps() elements.
     void update(const LightingView& lighting, std::span<glm::vec4> constants) const;
     /// Computes only constants `first` .. `last` - 1, to spread the work over threads or frames, and writes
     /// each at its index in `constants` [rows() or more]. Rounds `first` down and `last` up to a multiple of

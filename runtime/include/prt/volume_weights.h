@@ -44,9 +44,9 @@ inline float visibility_weight(const std::array<float, 6>& nearness, const glm::
 }
 
 /// Returns the eight probes of the cell that contains `position`, with trilinear weights of sum 1; visibility
-/// does not change the weights. `brick`: index into VolumeGrid::bricks. `position`: metres, in the frame of
-/// VolumeGrid::origin, clamped to the brick. `probes`: probes_of(grid). Corner i of the result is at
-/// (i & 1, i >> 1 & 1, i >> 2) in the cell.
+/// does not change the weights. `brick`: index into VolumeGrid::bricks. `position`: metres, relative to
+/// Scene::origin like VolumeGrid::origin; a position outside the brick is moved to the nearest point of it.
+/// `probes`: probes_of(grid). Corner i of the result is at (i & 1, i >> 1 & 1, i >> 2) in the cell.
 VolumeCorners corners_in(const VolumeGrid& grid, const VolumeProbes& probes, std::size_t brick,
                          const glm::vec3& position);
 

@@ -55,7 +55,9 @@ GlOccluders::GlOccluders(std::span<const OcclusionVolume> volumes)
 }
 
 void GlOccluders::use(std::span<const PlacedOccluder> objects) {
-    assert(objects.size() <= kMaxOccluders);
+    if (objects.size() > kMaxOccluders)
+        throw Error("a shader supports at most " + counted(kMaxOccluders, "occluder") + ", not " +
+                    std::to_string(objects.size()));
     Block block{};
     std::ranges::copy(objects, block.objects.begin());
     block.count[0] = static_cast<std::int32_t>(objects.size());

@@ -152,7 +152,7 @@ std::vector<std::uint32_t> matching_receivers(const Scene& scene, const Scene& o
     const std::vector<Key> keys = keys_of(scene), other_keys = keys_of(other);
     const std::vector<std::uint32_t> order = sorted(keys), other_order = sorted(other_keys);
     for (std::size_t i = 0; i < order.size(); ++i) {
-        if (i >= other_order.size() || keys[order[i]] != other_keys[other_order[i]])
+        if (order.size() != other_order.size() || keys[order[i]] != other_keys[other_order[i]])
             throw Error("its vertices differ from those of the bake");
         match[order[i]] = other_order[i];
     }

@@ -81,12 +81,14 @@ std::vector<std::string> unused_lights(const GltfDocument& document) {
     const Json& json = document.contents().json;
     std::vector<std::string> unused;
     const Json* extension = extension_of(json, "KHR_lights_punctual");
-    if (!extension || !extension->contains("lights") || !json.contains("nodes"))
+    if (!extension || !extension->contains("lights"))
         return unused;
     std::set<std::size_t> used;
-    for (const Json& node : json["nodes"])
-        if (const Json* light = extension_of(node, "KHR_lights_punctual"))
-            used.insert(light->value("light", std::size_t{0}));
+    if (const auto nodes = json.find("nodes"); nodes != json.end())
+        for (const Json& node : *nodes)
+            if (const Json* light = extension_of(node, "KHR_lights_punctual");
+                light && light->contains("light"))
+                used.insert(light->at("light").get<std::size_t>());
     const Json& lights = extension->at("lights");
     for (std::size_t i = 0; i < lights.size(); ++i)
         if (!used.contains(i))

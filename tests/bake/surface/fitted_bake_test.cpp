@@ -3,6 +3,7 @@
 #include "surface_fit/surface_samples.h"
 
 #include "prt/bake.h"
+#include "prt/make_tracer.h"
 #include "prt/sh.h"
 #include "prt/trace_receivers.h"
 #include "support/scene_builder.h"

@@ -272,8 +272,8 @@ typedef struct prt_instances_info {
 PRT_API prt_status prt_instances_get_info(const prt_model* model, prt_instances_info* out,
                                           prt_message* message);
 /* Writes the range of instances that draw mesh `mesh`: instances *first .. *first + *count - 1. *count is 0
- * if the mesh has no instances and is drawn once, with the constants of the model. For a model without
- * instances returns PRT_BAD_ARGUMENT. */
+ * if the mesh has no instances and is drawn once, with the constants of the model; in a model without
+ * instances it is always 0. */
 PRT_API prt_status prt_instances_of_mesh(const prt_model* model, size_t mesh, size_t* first, size_t* count,
                                          prt_message* message);
 /* Computes the constants of all instances and writes them to `constants` [prt_instances_info.constants][4].

@@ -50,8 +50,8 @@ std::vector<Lobe> fit_lobes(const LobeTargets& targets, const LobeFitOptions& op
 /// Codes `fitted` [vertices][options.lobes], the result of `fit_lobes` for the same targets and options, as
 /// words of four bytes with profiles that all vertices share. Optimises words and profiles alternately for
 /// the error against `targets`; the lobes of a vertex compensate each other's rounding. Under uniform light
-/// no coded vertex has an exit radiance (albedo 1) above the radiance of the light. Throws `Cancelled` after
-/// a stop request.
+/// no coded vertex has an exit radiance (albedo 1) above the radiance of the light. Throws the errors of
+/// `fit_lobes`, and `Error` if `fitted` has another length; throws `Cancelled` after a stop request.
 LobeModel code_lobes(const LobeTargets& targets, std::span<const Lobe> fitted,
                      const LobeFitOptions& options = {}, const Progress& progress = {});
 

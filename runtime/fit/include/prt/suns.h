@@ -17,9 +17,9 @@ inline constexpr int kMaxAutoSuns = 4;
 /// Settings of `find_suns`.
 struct SunOptions {
     int order = 6; ///< number of SH bands into which the caller projects the remainder, 1..kMaxOrder
-    /// Maximum number of suns, at least 0; fewer if the image has fewer. Without a value: at most
-    /// kMaxAutoSuns, each of which must reduce `SunSplit::error_with` by at least 0.01 (docs/math.md, "Suns
-    /// in an image").
+    /// Maximum number of suns, at least 0; fewer if the image has fewer. Without a value: the number in
+    /// 0..kMaxAutoSuns for which `SunSplit::error_with` plus 0.01 per sun is smallest (docs/math.md, "Suns in
+    /// an image").
     std::optional<int> count = {};
     int threads = 0; ///< 0: all
 };

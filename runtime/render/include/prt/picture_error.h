@@ -10,7 +10,7 @@
 
 namespace prt {
 
-/// Returns the mean of two pictures, pixel by pixel. Both must have the same size.
+/// Returns the mean of two pictures, pixel by pixel. Throws `Error` if their sizes differ.
 Image mean_of(const std::array<Image, 2>& halves);
 
 /// Returns an estimate of the relative L2 error that noise causes in mean_of(halves): the root of the

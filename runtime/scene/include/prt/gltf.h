@@ -37,8 +37,10 @@ private:
 /// Representation in a document of meshes that several nodes draw with shared transfer (PRTKIT_instances of
 /// docs/format.md). Does not matter for files without PRTKIT_instances.
 enum class Instancing {
-    nodes,    ///< each instance is a node, at its position in the world; shared transfer cannot be read
-    separate, ///< each shared mesh occurs once, in its own frame; required to read shared transfer
+    nodes,    ///< each instance is a node, at its position in the world; `read_instanced`
+              ///< (prt/instances_gltf.h) reads shared transfer, `read_transfer` and `read_clustered` cannot
+    separate, ///< each shared mesh occurs once, in its own frame; `read_transfer` and `read_clustered` read
+              ///< its transfer
 };
 
 /// Settings for reading a glTF file.

@@ -114,14 +114,18 @@ InstancedModel read_instanced(const GltfDocument& document, const Scene& scene,
                               const std::filesystem::path& path);
 
 /// Returns the instances of `model` in the form that InstanceRelighter needs, in the order of
-/// `model.instances`. `model.compressed` must have a value. Boxes are relative to `model.stored.origin`, like
-/// positions of `model.stored`.
-std::vector<RelitInstance> relit_instances(const InstancedModel& model);
+/// `model.instances`. `model.compressed` must have a value. Boxes are relative to
+/// `model.stored.origin` - `seen_from`. With the default, positions in the vertex shader are those of
+/// `model.stored`; with `seen_from` = `model.stored.origin` they are those of the file, as shaders of `prt
+/// shader --stage instances` require.
+std::vector<RelitInstance> relit_instances(const InstancedModel& model,
+                                           const glm::dvec3& seen_from = glm::dvec3(0));
 /// Returns `instances` in the form that InstanceRelighter needs, in the same order. `transfer` has the
 /// receivers of `stored`; `stored` is the scene that `FileInstance::stored_arrays` refers to. Boxes of the
 /// result are relative to `stored.origin`.
 std::vector<RelitInstance> relit_instances(std::span<const FileInstance> instances, const Scene& stored,
-                                           const ClusteredTransfer& transfer);
+                                           const ClusteredTransfer& transfer,
+                                           const glm::dvec3& seen_from = glm::dvec3(0));
 
 /// Returns areas in m², [receivers of `stored`]: the area of the receiver itself, or for a receiver of a
 /// shared mesh the sum of its areas in all instances at their scales. `document` was read with

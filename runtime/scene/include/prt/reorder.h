@@ -27,7 +27,8 @@ void reorder_vertices(GltfDocument& document, const Scene& scene, std::span<cons
 
 /// Returns the index in `other` of every receiver of `scene`, [receivers of `scene`]. Receivers match if
 /// their positions and normals are equal bit by bit and their vertex arrays have the same content. Equal
-/// receivers of an array match in their order. Throws `Error` if a receiver of `scene` has no match.
+/// receivers of an array match in their order. Throws `Error` if a receiver of either
+/// scene has no match.
 std::vector<std::uint32_t> matching_receivers(const Scene& scene, const Scene& other);
 
 /// Returns a copy of `transfer` in which the receivers have the order of `scene`. In `transfer` the receivers

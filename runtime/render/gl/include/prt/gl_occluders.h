@@ -18,7 +18,7 @@ public:
     explicit GlOccluders(std::span<const OcclusionVolume> volumes);
 
     /// Selects the occluders of subsequent draws: copies `objects` to the uniform block, and binds the block
-    /// and the texture. `objects`: results of `placed`, at most kMaxOccluders; more are undefined behavior.
+    /// and the texture. `objects`: results of `placed`. Throws `Error` for more than kMaxOccluders objects.
     void use(std::span<const PlacedOccluder> objects);
 
 private:

@@ -98,8 +98,8 @@ private:
         GlObject positions, normals, colors;
         std::vector<GlObject> texcoords; ///< [set]; empty if the file has no such set
     };
-    /// Returns the texture, or null if the material has no texture or the vertices have no coordinates for
-    /// it.
+    /// Returns the texture of `use`. Returns null if `use` has no image, if the image is not loaded, or if
+    /// `vertices` have no coordinates for it.
     const GlObject* texture_of(const TextureUse& use, const Vertices& vertices) const;
     void prepare(const GlObject& program, const GlVertexArrays& arrays, std::size_t primitive) const;
     void prepare_for_suns(const GlObject& program, const Primitive& primitive) const;

@@ -22,7 +22,8 @@ public:
     /// Uploads all data that do not depend on the lighting. Keeps a reference to `volume`, whose weights must
     /// be packed. `format`: format of the light texture; shaders can filter rgba16 linearly, rgba32 not. The
     /// light is undefined until `set_light` or `upload`. Throws `Error` if GPU memory runs out, if the device
-    /// does not support 3D textures of this size, or if a probe has more words than shaders support.
+    /// does not support 3D textures of this size, if a probe has more words than shaders support, or if the
+    /// driver cannot build the program. Throws the errors of the constructor of VolumeLookup.
     explicit GlVolume(const CompressedVolume& volume, VolumeFormat format = VolumeFormat::rgba16);
 
     /// Computes the light texture for `lighting` on the GPU. `sun`: unit direction towards a sun, whose

@@ -51,9 +51,10 @@ public:
     static void set_map(const GlObject& program, int map, int size);
 
     /// Draws the maps of all `suns`, fitted to the part of the scene that `view` shows. Does nothing if suns,
-    /// view and `moving.version` are equal to those of the previous call. Changes the bound framebuffer, the
-    /// viewport, the program in use, and depth, blend and scissor state. Throws `Error` for more than
-    /// kMaxShadowedSuns suns, for an invalid camera (`camera_frame`), and if GPU memory runs out.
+    /// view and `moving.version` are equal to those of the previous call. Changes the bound framebuffer,
+    /// vertex array, storage buffers and textures, the viewport, the program in use, and depth, blend and
+    /// scissor state; disables face culling. Throws `Error` for more than kMaxShadowedSuns suns, for an
+    /// invalid camera (`camera_frame`), and if GPU memory runs out.
     void draw(std::span<const Sun> suns, const View& view, const Moving& moving);
     /// Draws the maps like the other overload, without moving casters.
     void draw(std::span<const Sun> suns, const View& view) { draw(suns, view, Moving()); }
