@@ -2,7 +2,6 @@
 
 // Compares speed and error of the bake of direct light on every backend and with every method.
 
-#include "prt/gpu_devices.h"
 #include "prt/make_tracer.h"
 #include "prt/scene.h"
 #include "prt/texture.h"

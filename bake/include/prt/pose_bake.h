@@ -5,6 +5,7 @@
 
 #include "prt/animation.h"
 #include "prt/bake_options.h"
+#include "prt/support/progress.h"
 
 #include <glm/mat4x4.hpp>
 

@@ -4,7 +4,6 @@
 
 #include "prt/baked_transfer.h"
 #include "prt/falloff.h"
-#include "prt/gpu_devices.h"
 
 #include <string>
 
