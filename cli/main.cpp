@@ -1,12 +1,12 @@
 // The prt program: parses the command line, runs a command and reports errors.
 
+#include "arguments/help.h"
+#include "arguments/known_names.h"
 #include "commands/commands.h"
-#include "help.h"
-#include "known_names.h"
+#include "pipeline/shell_word.h"
+#include "program/session.h"
+#include "program/terminal.h"
 #include "prt/support/error.h"
-#include "session.h"
-#include "shell_word.h"
-#include "terminal.h"
 
 #include <CLI/CLI.hpp>
 

@@ -2,16 +2,18 @@
 
 #include "commands/commands.h"
 
-#include "back_sides.h"
-#include "no_shadow.h"
-#include "occluders.h"
-#include "options.h"
-#include "outputs.h"
+#include "arguments/options.h"
+#include "arguments/scene_arguments.h"
+#include "arguments/texel_arguments.h"
+#include "pipeline/back_sides.h"
+#include "pipeline/no_shadow.h"
+#include "pipeline/occluders.h"
+#include "program/outputs.h"
+#include "program/session.h"
 #include "prt/encode_glb.h"
 #include "prt/image_file.h"
 #include "prt/occlusion_maps.h"
 #include "prt/support/stopwatch.h"
-#include "texel_arguments.h"
 
 #include <fmt/core.h>
 #include <glm/geometric.hpp>
@@ -220,7 +222,11 @@ void separate(const AoArguments& a, GltfDocument& document, Scene& scene) {
     options.repairs = {.bad_textures = a.options.repairs.bad_textures};
     options.threads = a.options.threads;
     options.seed = a.options.seed;
-    separate_sides({.sides = a.back_sides, .path = a.scene, .options = options, .no_shadow = a.no_shadow},
+    separate_sides({.sides = a.back_sides,
+                    .path = a.scene,
+                    .options = options,
+                    .no_shadow = a.no_shadow,
+                    .notify = print_notices},
                    document, scene);
 }
 

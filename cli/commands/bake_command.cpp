@@ -2,26 +2,27 @@
 
 #include "commands/commands.h"
 
-#include "back_sides.h"
-#include "instance_arguments.h"
-#include "lamp_strengths.h"
-#include "level_arguments.h"
-#include "no_shadow.h"
-#include "options.h"
-#include "outputs.h"
+#include "arguments/light_arguments.h"
+#include "arguments/options.h"
+#include "arguments/scene_arguments.h"
+#include "arguments/suboptions.h"
+#include "arguments/texel_arguments.h"
+#include "arguments/volume_arguments.h"
+#include "pipeline/back_sides.h"
+#include "pipeline/instance_report.h"
+#include "pipeline/lamp_strengths.h"
+#include "pipeline/level_report.h"
+#include "pipeline/no_shadow.h"
+#include "program/outputs.h"
+#include "program/session.h"
 #include "prt/encode_glb.h"
 #include "prt/lightmap_bake.h"
 #include "prt/lightmap_gltf.h"
 #include "prt/refine.h"
 #include "prt/support/error.h"
 #include "report/bake_report.h"
-#include "report/instance_report.h"
-#include "report/level_report.h"
 #include "report/lightmap_report.h"
 #include "report/volume_report.h"
-#include "suboptions.h"
-#include "texel_arguments.h"
-#include "volume_arguments.h"
 
 #include <fmt/core.h>
 
@@ -264,7 +265,8 @@ SidesRequest sides_of(const BakeArguments& a) {
             .path = a.scene,
             .options = a.options,
             .no_shadow = a.no_shadow,
-            .levels = a.levels != LevelMode::ignore};
+            .levels = a.levels != LevelMode::ignore,
+            .notify = print_notices};
 }
 
 /// Bakes the requested volume.
@@ -320,8 +322,8 @@ void note_lights(const BakeArguments& a, const Scene& scene, const Transfer& tra
 
 void run_vertices(const BakeArguments& a, GltfDocument& document, Scene& scene, Session& session) {
     about(a.scene, [&] { separate_sides(sides_of(a), document, scene); });
-    std::optional<BakedLevels> levels =
-        about(a.scene, [&] { return find_levels(a.levels, a.scene, document, a.options.threads); });
+    std::optional<BakedLevels> levels = about(
+        a.scene, [&] { return find_levels(a.levels, a.scene, document, a.options.threads, print_notices); });
     const Baked baked = about(a.scene, [&] { return bake_scene(a, document, scene, session); });
     note_lights(a, scene, baked.result.baked.transfer, receiver_areas(scene));
     const std::optional<VolumeBake> volume = bake_probes(a, scene, session);

@@ -2,12 +2,13 @@
 
 #include "commands/commands.h"
 
-#include "inputs.h"
-#include "options.h"
-#include "outputs.h"
+#include "arguments/options.h"
+#include "arguments/suboptions.h"
+#include "pipeline/model.h"
+#include "program/outputs.h"
+#include "program/session.h"
 #include "prt/gpu_devices.h"
 #include "report/bench_report.h"
-#include "suboptions.h"
 
 #include <fmt/core.h>
 

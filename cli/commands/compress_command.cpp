@@ -2,10 +2,14 @@
 
 #include "commands/commands.h"
 
-#include "compress_arguments.h"
-#include "fallback.h"
-#include "options.h"
-#include "outputs.h"
+#include "arguments/compress_arguments.h"
+#include "arguments/light_arguments.h"
+#include "arguments/options.h"
+#include "pipeline/fallback.h"
+#include "pipeline/instance_report.h"
+#include "pipeline/sky_errors.h"
+#include "program/outputs.h"
+#include "program/session.h"
 #include "prt/compress_volume.h"
 #include "prt/encode_glb.h"
 #include "prt/error_measures.h"
@@ -19,11 +23,10 @@
 #include "prt/search.h"
 #include "prt/stored_transfer.h"
 #include "prt/support/error.h"
-#include "report/instance_report.h"
 #include "report/of_texels.h"
 #include "report/trace_lines.h"
+#include "report/transfer_words.h"
 #include "report/volume_report.h"
-#include "sky_errors.h"
 
 #include <fmt/ranges.h>
 
@@ -127,7 +130,7 @@ Bake bake_of_surfaces(GltfDocument document, const Scene& scene, const Path& pat
     const std::optional<LeveledScene> levels = levels_to_compress(document);
     std::optional<StoredBake> stored = read_stored_transfer(document, levels ? levels->scene : scene);
     if (!stored)
-        throw scene_file_of(std::move(document), path).compressed
+        throw scene_file_of(std::move(document), path, print_notices).compressed
             ? already_compressed(path)
             : Error(path.string() + ": contains no transfer; run prt bake first");
     discard_transfer(document); // it is in `stored`, and would use memory twice
@@ -322,7 +325,7 @@ Written written(const CompressArguments& a, std::vector<std::byte> file, const B
     });
     const std::uintmax_t bytes = session.write(a.output, file);
     file = {};
-    SceneFile read = readable(a, [&] { return scene_file_of(std::move(document), a.output); });
+    SceneFile read = readable(a, [&] { return scene_file_of(std::move(document), a.output, print_notices); });
     ClusteredTransfer& transfer = read.compressed->transfer;
     if (lightmap)
         return {std::move(read.scene), gather_texels(transfer, lightmap->texels), lightmap->areas,

@@ -2,18 +2,21 @@
 
 #include "commands/commands.h"
 
-#include "budget/measure_budget.h"
-#include "comparison.h"
-#include "evaluation_lights.h"
-#include "level_errors.h"
-#include "no_shadow.h"
-#include "options.h"
-#include "outputs.h"
+#include "arguments/light_arguments.h"
+#include "arguments/options.h"
+#include "arguments/scene_arguments.h"
+#include "pipeline/comparison.h"
+#include "pipeline/evaluation_lights.h"
+#include "pipeline/level_errors.h"
+#include "pipeline/measure_budget.h"
+#include "pipeline/no_shadow.h"
+#include "pipeline/volume_errors.h"
+#include "program/outputs.h"
+#include "program/session.h"
 #include "prt/error_measures.h"
 #include "prt/support/error.h"
 #include "report/of_texels.h"
 #include "report/sweep_report.h"
-#include "volume_errors.h"
 
 #include <filesystem>
 #include <set>
@@ -139,9 +142,9 @@ void run(EvaluateArguments a, Session& session) {
         add_level_errors({baked.document, a.baked, a.shipped, a.reading, a.threads}, lights, report);
     add_sizes_of_bake(a, baked.baked->transfer, report);
     if (a.measures.contains(Measure::budget))
-        add_budget(budget_request(a), baked, report, session);
+        add_budget(budget_request(a), baked, report, session.host());
     if (a.measures.contains(Measure::volume))
-        add_volume_errors(budget_request(a), baked, report, session);
+        add_volume_errors(budget_request(a), baked, report, session.host());
     if (a.measures.contains(Measure::sweep))
         add_sweep(run_sweep(a, baked, lights, session), report);
     if (baked.lightmap)

@@ -2,14 +2,17 @@
 
 #include "commands/commands.h"
 
-#include "options.h"
-#include "outputs.h"
+#include "arguments/options.h"
+#include "arguments/scene_arguments.h"
+#include "pipeline/instance_report.h"
+#include "pipeline/scene_check.h"
+#include "program/outputs.h"
+#include "program/session.h"
 #include "prt/levels.h"
-#include "report/instance_report.h"
 #include "report/lightmap_report.h"
 #include "report/of_texels.h"
+#include "report/transfer_words.h"
 #include "report/volume_report.h"
-#include "scene_check.h"
 
 #include <fmt/ranges.h>
 

@@ -2,16 +2,17 @@
 
 #include "commands/commands.h"
 
-#include "lobe_errors.h"
-#include "options.h"
-#include "outputs.h"
+#include "arguments/options.h"
+#include "arguments/suboptions.h"
+#include "pipeline/lobe_errors.h"
+#include "program/outputs.h"
+#include "program/session.h"
 #include "prt/encode_glb.h"
 #include "prt/light_metric.h"
 #include "prt/lobe_fit.h"
 #include "prt/lobe_gltf.h"
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"
-#include "suboptions.h"
 
 #include <fmt/core.h>
 

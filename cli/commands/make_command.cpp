@@ -2,12 +2,15 @@
 
 #include "commands/commands.h"
 
-#include "lamp_strengths.h"
-#include "make/make_model.h"
-#include "no_shadow.h"
-#include "options.h"
-#include "outputs.h"
-#include "shell_word.h"
+#include "arguments/light_arguments.h"
+#include "arguments/options.h"
+#include "arguments/scene_arguments.h"
+#include "pipeline/lamp_strengths.h"
+#include "pipeline/make_model.h"
+#include "pipeline/no_shadow.h"
+#include "pipeline/shell_word.h"
+#include "program/outputs.h"
+#include "program/session.h"
 
 namespace prt::cli {
 namespace {
@@ -30,7 +33,7 @@ void run(MakeArguments a, Session& session) {
     Report report;
     report.title = "Made of " + r.scene.filename().string();
     report.origin = {{"scene", r.scene.string()}, {"command", session.command_line()}};
-    make_model(r, report, session);
+    make_model(r, report, session.host());
     publish(report, a.files, session);
 }
 

@@ -2,9 +2,12 @@
 
 #include "commands/commands.h"
 
-#include "loaded_light.h"
-#include "options.h"
-#include "outputs.h"
+#include "arguments/light_arguments.h"
+#include "arguments/options.h"
+#include "pipeline/loaded_light.h"
+#include "pipeline/model.h"
+#include "program/outputs.h"
+#include "program/session.h"
 #include "prt/light_file.h"
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"

@@ -2,18 +2,20 @@
 
 #include "commands/commands.h"
 
-#include "lamp_strengths.h"
-#include "loaded_light.h"
-#include "options.h"
-#include "outputs.h"
+#include "arguments/light_arguments.h"
+#include "arguments/options.h"
+#include "arguments/view_arguments.h"
+#include "pipeline/lamp_strengths.h"
+#include "pipeline/loaded_light.h"
+#include "pipeline/solid_materials.h"
+#include "program/outputs.h"
+#include "program/session.h"
 #include "prt/encode_glb.h"
 #include "prt/fallback.h"
 #include "prt/light_meter.h"
 #include "prt/sun_radiance.h"
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"
-#include "solid_materials.h"
-#include "view_arguments.h"
 
 #include <fmt/core.h>
 #include <glm/geometric.hpp>

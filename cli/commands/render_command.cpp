@@ -2,11 +2,17 @@
 
 #include "commands/commands.h"
 
-#include "lamp_strengths.h"
-#include "loaded_light.h"
-#include "options.h"
-#include "outputs.h"
-#include "posed_lobes.h"
+#include "arguments/light_arguments.h"
+#include "arguments/options.h"
+#include "arguments/view_arguments.h"
+#include "pipeline/lamp_strengths.h"
+#include "pipeline/loaded_light.h"
+#include "pipeline/model.h"
+#include "pipeline/posed_lobes.h"
+#include "pipeline/solid_materials.h"
+#include "pipeline/traced_picture.h"
+#include "program/outputs.h"
+#include "program/session.h"
 #include "prt/gl_renderer.h"
 #include "prt/light_meter.h"
 #include "prt/light_passing.h"
@@ -20,9 +26,6 @@
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"
 #include "prt/tone_map.h"
-#include "solid_materials.h"
-#include "traced_picture.h"
-#include "view_arguments.h"
 
 #include <fmt/core.h>
 #include <glm/trigonometric.hpp>

@@ -2,8 +2,10 @@
 
 #include "commands/commands.h"
 
-#include "options.h"
-#include "outputs.h"
+#include "arguments/options.h"
+#include "program/outputs.h"
+#include "program/session.h"
+#include "program/terminal.h"
 #include "prt/instance_shader.h"
 #include "prt/lobe_shader.h"
 #include "prt/occlusion_volume.h"
@@ -12,7 +14,6 @@
 #include "prt/support/error.h"
 #include "prt/support/printable.h"
 #include "prt/volume_shader.h"
-#include "terminal.h"
 
 #include <fmt/core.h>
 #include <glm/vec4.hpp>

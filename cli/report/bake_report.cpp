@@ -2,10 +2,9 @@
 
 #include "report/bake_report.h"
 
-#include "options.h"
 #include "prt/support/counted.h"
 #include "prt/support/printable.h"
-#include "report/publish.h"
+#include "report/transfer_words.h"
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>
@@ -17,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace prt::cli {
+namespace prt::pipeline {
 namespace {
 
 Json refinement_json(const RefineStatistics& s, double target) {
@@ -283,4 +282,4 @@ Report bake_report(const BakeOutcome& baked) {
     return report;
 }
 
-} // namespace prt::cli
+} // namespace prt::pipeline

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-namespace prt::cli {
+namespace prt::pipeline {
 
 /// Options and result of a bake.
 struct BakeOutcome {
@@ -24,4 +24,4 @@ struct BakeOutcome {
 
 Report bake_report(const BakeOutcome& baked);
 
-} // namespace prt::cli
+} // namespace prt::pipeline

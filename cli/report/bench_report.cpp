@@ -4,7 +4,7 @@
 
 #include <fmt/core.h>
 
-namespace prt::cli {
+namespace prt::pipeline {
 namespace {
 
 /// A curve for each backend and method.
@@ -85,4 +85,4 @@ Report bench_report(const BenchResult& result) {
     return report;
 }
 
-} // namespace prt::cli
+} // namespace prt::pipeline

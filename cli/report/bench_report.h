@@ -3,9 +3,9 @@
 #include "prt/bench.h"
 #include "report/report.h"
 
-namespace prt::cli {
+namespace prt::pipeline {
 
 /// All runs, with the curves of error over time and of speed over rays.
 Report bench_report(const BenchResult& result);
 
-} // namespace prt::cli
+} // namespace prt::pipeline

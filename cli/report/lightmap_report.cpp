@@ -3,13 +3,13 @@
 #include "report/lightmap_report.h"
 
 #include "prt/support/counted.h"
-#include "report/publish.h"
+#include "report/transfer_words.h"
 
 #include <fmt/ranges.h>
 
 #include <vector>
 
-namespace prt::cli {
+namespace prt::pipeline {
 namespace {
 
 Json statistics_json(const LightmapStatistics& s) {
@@ -93,4 +93,4 @@ Report lightmap_report(const LightmapOutcome& baked) {
     return report;
 }
 
-} // namespace prt::cli
+} // namespace prt::pipeline

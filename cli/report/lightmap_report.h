@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-namespace prt::cli {
+namespace prt::pipeline {
 
 /// Result of a bake into texels.
 struct LightmapOutcome {
@@ -23,4 +23,4 @@ Json maps_figures(const LightmapLayout& layout);
 /// "2 maps, 512 x 512 and 256 x 256"
 std::string maps_in_words(const LightmapLayout& layout);
 
-} // namespace prt::cli
+} // namespace prt::pipeline

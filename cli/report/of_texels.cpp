@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-namespace prt::cli {
+namespace prt::pipeline {
 namespace {
 
 void replace_all(std::string& text, std::string_view word, std::string_view by) {
@@ -58,4 +58,4 @@ void report_texels(Report& report) {
         sentence = of_texels(std::move(sentence));
 }
 
-} // namespace prt::cli
+} // namespace prt::pipeline

@@ -2,10 +2,10 @@
 
 #include "report/report.h"
 
-namespace prt::cli {
+namespace prt::pipeline {
 
 /// Renames figures and sentences of a report whose receivers are texels: "per vertex" becomes "per texel",
 /// also in keys.
 void report_texels(Report& report);
 
-} // namespace prt::cli
+} // namespace prt::pipeline

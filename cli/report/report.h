@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace prt::cli {
+namespace prt::pipeline {
 
 using Json = nlohmann::ordered_json;
 
@@ -120,4 +120,4 @@ std::string report_csv(const Report& report);
 /// Returns a self-contained page: report/page.html with the report as JSON. It loads no other file.
 std::string report_html(const Report& report);
 
-} // namespace prt::cli
+} // namespace prt::pipeline

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace prt::cli {
+namespace prt::pipeline {
 namespace {
 
 /// Returns a cell quoted by RFC 4180.
@@ -131,4 +131,4 @@ std::string report_csv(const Report& report) {
     return csv.text();
 }
 
-} // namespace prt::cli
+} // namespace prt::pipeline

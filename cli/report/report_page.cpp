@@ -5,7 +5,7 @@
 
 #include <string_view>
 
-namespace prt::cli {
+namespace prt::pipeline {
 namespace {
 
 std::string base64(const std::vector<std::byte>& bytes) {
@@ -94,4 +94,4 @@ std::string report_html(const Report& report) {
     return page;
 }
 
-} // namespace prt::cli
+} // namespace prt::pipeline

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-namespace prt::cli {
+namespace prt::pipeline {
 namespace {
 
 /// Returns the number of characters of a UTF-8 string.
@@ -168,4 +168,4 @@ std::string report_text(const Report& report) {
     return text;
 }
 
-} // namespace prt::cli
+} // namespace prt::pipeline

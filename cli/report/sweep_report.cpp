@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace prt::cli {
+namespace prt::pipeline {
 namespace {
 
 std::vector<std::string> methods_of(const std::vector<SweepPoint>& points) {
@@ -128,4 +128,4 @@ void add_sweep(const Sweep& sweep, Report& report) {
         report.notes.push_back(std::string(kOurs) + ": " + missing);
 }
 
-} // namespace prt::cli
+} // namespace prt::pipeline

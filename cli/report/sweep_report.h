@@ -3,9 +3,9 @@
 #include "prt/sweep.h"
 #include "report/report.h"
 
-namespace prt::cli {
+namespace prt::pipeline {
 
 /// Two charts with the best of every method at each size, for people, and all points, for files.
 void add_sweep(const Sweep& sweep, Report& report);
 
-} // namespace prt::cli
+} // namespace prt::pipeline

@@ -1,7 +1,7 @@
 // Writes the events of the compressor as JSON lines, for `prt compress --trace`.
 #include "report/trace_lines.h"
 
-namespace prt::cli {
+namespace prt::pipeline {
 namespace {
 
 Json as_json(const ClustersSeeded& e) {
@@ -53,4 +53,4 @@ Json trial_json(const SearchTrial& trial) {
             {"shader_operations", trial.operations}};
 }
 
-} // namespace prt::cli
+} // namespace prt::pipeline

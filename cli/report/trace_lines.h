@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace prt::cli {
+namespace prt::pipeline {
 
 /// An event of the compressor as a line of JSON.
 std::string trace_line(const CompressEvent& event);
@@ -13,4 +13,4 @@ std::string trace_line(const CompressEvent& event);
 /// The figures of a trial.
 Json trial_json(const SearchTrial& trial);
 
-} // namespace prt::cli
+} // namespace prt::pipeline

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace prt::cli {
+namespace prt::pipeline {
 namespace {
 
 /// An error as a viewer sees it, and its cause in words.
@@ -54,4 +54,4 @@ std::string in_one_line(const Verdict& v) {
     return line + ": " + judgement(v);
 }
 
-} // namespace prt::cli
+} // namespace prt::pipeline

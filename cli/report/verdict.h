@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-namespace prt::cli {
+namespace prt::pipeline {
 
 /// Visible difference in radiance, relative to the mean: the upper end of Weber's fraction, 1 to 2 %, and
 /// slightly more than one step of an 8-bit sRGB display at its middle, 1.7 % (docs/math.md, section 6).
@@ -29,4 +29,4 @@ struct Verdict {
 /// visible difference from the bake: ", followed by the cause: "lamp LampTable".
 std::string in_one_line(const Verdict& verdict);
 
-} // namespace prt::cli
+} // namespace prt::pipeline

@@ -2,11 +2,11 @@
 
 #include "report/volume_report.h"
 
-#include "report/publish.h"
+#include "report/transfer_words.h"
 
 #include <fmt/core.h>
 
-namespace prt::cli {
+namespace prt::pipeline {
 
 Json grid_figures(const VolumeGrid& grid, std::size_t probes, int order) {
     return {{"probes", probes},
@@ -71,4 +71,4 @@ void add_volume_compression(const CompressStatistics& statistics, const Compress
         "incident light {volume/expected_error:.2f%}; {volume/seconds:.2f} s");
 }
 
-} // namespace prt::cli
+} // namespace prt::pipeline

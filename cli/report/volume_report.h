@@ -4,7 +4,7 @@
 #include "prt/volume_bake.h"
 #include "report/report.h"
 
-namespace prt::cli {
+namespace prt::pipeline {
 
 /// Returns {"probes": 3213, "bricks": 40, "spacing_metres": 0.5, ..}.
 Json grid_figures(const VolumeGrid& grid, std::size_t probes, int order);
@@ -19,4 +19,4 @@ void add_volume_bake(const VolumeBake& bake, Report& report);
 void add_volume_compression(const CompressStatistics& statistics, const CompressedVolume& volume,
                             Report& report);
 
-} // namespace prt::cli
+} // namespace prt::pipeline

@@ -2,9 +2,9 @@
 
 #include "prt/bake.h"
 
-#include "trace/choose_lamps.h"
 #include "prt/support/error.h"
 #include "support/scene_builder.h"
+#include "trace/choose_lamps.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

@@ -29,7 +29,9 @@ PARTS = {
     "compress": ("compress", "runtime scene", "glm Eigen"),
     "compress_study": ("compress/study", "runtime scene compress", "glm Eigen"),
     "shaders": ("shaders", "", ""),
-    "cli": ("cli", "runtime shader fit image scene render gl bake compress", "glm fmt CLI nlohmann"),
+    "report": ("cli/report", "runtime scene bake compress", "glm fmt nlohmann"),
+    "pipeline": ("cli/pipeline", "runtime shader fit image scene render gl bake compress report", "glm fmt nlohmann"),
+    "cli": ("cli", "runtime shader fit image scene render gl bake compress report pipeline", "glm fmt CLI nlohmann"),
     "example_scenes": ("examples/scenes", "runtime image", "glm tinygltf"),
     "game": ("examples/game", "runtime shader fit image scene gl", "glm epoxy"),
     "viewer": ("examples/viewer", "runtime fit image scene render gl shader bake compress",
@@ -44,6 +46,7 @@ LAYERS = {
              "pipeline", "refine", "products/volumes", "products/occlusion", "products/lightmaps", "products/instances",
              "products/levels", "products/lobes", "studies"),
     "compress": ("tuning", "metric", "clusters", "coding", "pipeline", "search", "study"),
+    "cli": ("report", "pipeline", "program", "arguments", "commands"),
 }
 # Folders of public headers without a source of their name: their names, by folder.
 HOMES = {

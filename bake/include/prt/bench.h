@@ -15,9 +15,9 @@ namespace prt {
 /// Settings of the comparison.
 struct BenchOptions {
     int order = 6; ///< order of the transfer
-    /// Numbers of rays per receiver of the runs of a series: `fewest_rays`, at least 1, in the first run, and
-    /// twice as many in each next run, while the number is at most `max_rays`. For BakeMethod::raster these
-    /// are numbers of directions.
+    /// Numbers of rays per receiver of the runs of a series: `fewest_rays`, at least 1, in the first run,
+    /// then doubled from run to run while the number is at most `max_rays`. For BakeMethod::raster these are
+    /// numbers of directions.
     int fewest_rays = 64, max_rays = 4096;
     int raster_resolution = 1024; ///< texels along each side of a depth map, for BakeMethod::raster
     /// GPU for the series with ray tracing on a GPU: its index in gpu_devices(), or a part of its name;

@@ -1,12 +1,12 @@
 // Tests texels as receivers: their positions, gutters between charts, and seams.
 
+#include "products/lightmaps/gutters.h"
+#include "products/lightmaps/seams.h"
+#include "products/lightmaps/texel_samples.h"
 #include "prt/occlusion_maps.h"
 #include "prt/support/error.h"
 #include "prt/unwrap.h"
 #include "support/scene_builder.h"
-#include "products/lightmaps/gutters.h"
-#include "products/lightmaps/seams.h"
-#include "products/lightmaps/texel_samples.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -2,15 +2,15 @@
 
 #include "tracers/fallback_tracer.h"
 
-#include "trace/lamp_light.h"
+#include "pipeline/fitted_light.h"
 #include "plan/plan.h"
 #include "prt/gpu_failure.h"
 #include "prt/sh_basis.h"
 #include "prt/trace_receivers.h"
 #include "support/scene_builder.h"
 #include "support/traced.h"
-#include "pipeline/fitted_light.h"
 #include "trace/embree_tracer.h"
+#include "trace/lamp_light.h"
 #include "trace/vector_sums.h"
 
 #include <gtest/gtest.h>

@@ -5,8 +5,8 @@
 #include "support/gpu_scenes.h"
 #include "support/scene_builder.h"
 #include "support/vulkan_choice.h"
-#include "trace_gpu/gpu_gather.h"
 #include "trace/vector_sums.h"
+#include "trace_gpu/gpu_gather.h"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include "support/traced.h"
 #include "support/vulkan_choice.h"
 #include "trace/embree_tracer.h"
-#include "trace_gpu/vulkan_tracer.h"
 #include "trace/vector_sums.h"
+#include "trace_gpu/vulkan_tracer.h"
 
 #include <gtest/gtest.h>
 

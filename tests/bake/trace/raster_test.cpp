@@ -3,11 +3,11 @@
 #include "prt/bake.h"
 #include "prt/error_measures.h"
 #include "prt/support/error.h"
+#include "raster/gl_rasterizer.h"
 #include "support/gpu_scenes.h"
 #include "support/scene_builder.h"
 #include "support/traced.h"
 #include "trace/embree_tracer.h"
-#include "raster/gl_rasterizer.h"
 
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>

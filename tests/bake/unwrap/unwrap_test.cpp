@@ -2,11 +2,11 @@
 
 #include "prt/unwrap.h"
 
+#include "products/lightmaps/chart_packing.h"
+#include "products/lightmaps/texel_samples.h"
 #include "prt/support/error.h"
 #include "support/gpu_scenes.h"
 #include "support/scene_builder.h"
-#include "products/lightmaps/texel_samples.h"
-#include "products/lightmaps/chart_packing.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

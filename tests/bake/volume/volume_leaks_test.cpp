@@ -1,10 +1,10 @@
 // Tests that no sky light enters closed rooms, for all walls, spacings and positions of the grid.
 
+#include "products/volumes/visibility.h"
 #include "prt/sh.h"
 #include "prt/transfer.h"
 #include "prt/volume_bake.h"
 #include "support/scene_builder.h"
-#include "products/volumes/visibility.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

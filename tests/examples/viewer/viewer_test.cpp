@@ -1,7 +1,7 @@
 // The viewer without a window: files of all kinds, work in the background, a context that is lost.
 
-#include "gpu/lobe.h"
 #include "core/viewer.h"
+#include "gpu/lobe.h"
 #include "gpu/offscreen.h"
 #include "ui/controls.h"
 

@@ -1,0 +1,29 @@
+#pragma once
+
+// Options for the geometry of a scene: materials without shadow, back sides, levels of detail, instances.
+
+#include "pipeline/back_sides.h"
+#include "pipeline/instance_sharing.h"
+#include "pipeline/model_levels.h"
+#include "program/session.h"
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+#include <vector>
+
+namespace prt::cli {
+
+/// Adds --no-shadow.
+void add_no_shadow(CLI::App* command, std::vector<std::string>& materials);
+
+/// Adds --back-sides.
+void add_back_sides(CLI::App* command, BackSides& sides);
+
+/// Adds --levels.
+void add_levels(CLI::App* command, LevelMode& mode);
+
+/// Adds --instances and its related options.
+void add_instances(CLI::App* command, InstanceArguments& arguments);
+
+} // namespace prt::cli

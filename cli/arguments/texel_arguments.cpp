@@ -1,0 +1,123 @@
+// Parses texture options and prepares texture coordinates.
+
+#include "arguments/texel_arguments.h"
+
+#include "arguments/options.h"
+#include "arguments/suboptions.h"
+#include "program/session.h"
+#include "prt/support/error.h"
+#include "prt/unwrap.h"
+
+#include <fmt/core.h>
+#include <glm/geometric.hpp>
+
+#include <cmath>
+#include <utility>
+
+namespace prt::cli {
+namespace {
+
+constexpr Choice<AtlasMode> kAtlasModes[] = {
+    {"auto", AtlasMode::automatic, "one if the charts do not overlap, else each"},
+    {"one", AtlasMode::one, "one texture for all objects"},
+    {"each", AtlasMode::each, "a texture for each object"}};
+
+/// Reads "1024", texels along each side, or "64/m", texels per metre.
+void parse_size(const std::string& text, TexelOptions& texels) {
+    const bool density = text.ends_with("/m");
+    const std::optional<double> per_metre =
+        density ? real_number(text.substr(0, text.size() - 2)) : std::nullopt;
+    const std::optional<int> size = density ? std::nullopt : whole_number(text);
+    if (density ? !per_metre || !(*per_metre > 0) || !std::isfinite(*per_metre)
+                : !size || *size < 1 || *size > kMaxTexels)
+        throw CLI::ValidationError(
+            "--texels",
+            fmt::format("'{}' is neither a number of texels in 1..{} nor texels per metre, as 64/m", text,
+                        kMaxTexels));
+    texels.per_metre = per_metre.value_or(0);
+    texels.size = size.value_or(0);
+}
+
+/// Generates new texture coordinates for the scene.
+TexelRoom unwrapped(const TexelArguments& a, const Path& path, GltfDocument& document, Scene& scene) {
+    Unwrapping unwrapping = unwrap(scene, a.texels);
+    const int set = free_texcoord(scene);
+    document = with_texcoords(std::move(document), scene, unwrapping.primitives, set);
+    scene = extract_scene(document);
+    for (Atlas& atlas : unwrapping.atlases)
+        atlas.uv_set = set;
+    print_notices(
+        path.string(),
+        {fmt::format("TEXCOORD_{} has {} now, {:.4g} texels per metre", set,
+                     unwrapping.charts == 1 ? "one chart" : fmt::format("{} charts", unwrapping.charts),
+                     unwrapping.texels_per_metre)});
+    return {std::move(unwrapping.atlases),
+            {{"charts", unwrapping.charts}, {"texels_per_metre", unwrapping.texels_per_metre}}};
+}
+
+} // namespace
+
+CLI::Option* add_texels(CLI::App* command, TexelArguments& a, const std::string& text) {
+    CLI::Option* texels =
+        Suboptions("--texels", "N|N/m", text, [&a](const std::string& value) { parse_size(value, a.texels); })
+            .detail("N: number of texels along each side of a texture, 1 to 8192")
+            .detail("N/m: mean number of texels per metre of surface, as 64/m")
+            .flag("unwrap", "create a new set of texture coordinates if that of uv=N is missing or overlaps",
+                  [&a] { a.unwrap = true; })
+            .whole_number("uv", 0, 7, "set of texture coordinates to use, TEXCOORD_N, 0 to 7 [1]",
+                          [&a](int set) { a.texels.uv_set = set; })
+            .key("atlas", names_of(kAtlasModes),
+                 "one: a texture for all objects; each: a texture per object [auto]",
+                 [&a](const std::string& name) { a.texels.atlases = chosen("--texels", kAtlasModes, name); })
+            .detail("  auto: one if the charts of all objects do not overlap, else each")
+            .add(command);
+    Suboptions("--high-poly", "FILE",
+               "trace rays against this detailed model instead of the scene\n"
+               "needs --texels: a texel gets the value of the detailed surface along its normal",
+               [&a](const std::string& file) {
+                   if (file.empty())
+                       throw CLI::ValidationError("--high-poly", "the name of the file is empty");
+                   a.high_poly = file;
+               })
+        .number("distance", 1e-9, 1e9,
+                "maximum distance from scene to detailed model, metres [scene diagonal / 50]",
+                [&a](double metres) { a.distance = metres; })
+        .add(command);
+    a.option = texels;
+    return texels;
+}
+
+void check_texels(const TexelArguments& a) {
+    if (a.high_poly.empty() && a.distance)
+        throw Error("--high-poly needs a file, as --high-poly detailed.glb,distance=0.1");
+    if (!a.given() && a.option->count() > 0)
+        throw Error("--texels needs a size, as --texels 1024 or --texels 64/m");
+    if (!a.given() && !a.high_poly.empty())
+        throw Error("--high-poly needs textures: add --texels");
+}
+
+Finer load_finer(const TexelArguments& a, const GltfOptions& reading, const Scene& scene) {
+    Finer finer;
+    if (a.high_poly.empty())
+        return finer;
+    finer.scene = extract_scene(load_gltf(a.high_poly, reading));
+    print_notices(a.high_poly.string(), finer.scene->notices);
+    const Bounds box = bounds(scene);
+    finer.distance = a.distance.value_or(static_cast<double>(glm::distance(box.low, box.high)) / 50);
+    return finer;
+}
+
+TexelRoom make_room(const TexelArguments& a, const Path& path, GltfDocument& document, Scene& scene) {
+    if (!a.unwrap)
+        return {plan_atlases(scene, a.texels)};
+    try { // existing coordinates are kept if they have space for every surface
+        TexelRoom room{plan_atlases(scene, a.texels)};
+        print_notices(path.string(),
+                      {fmt::format("has TEXCOORD_{} already, which is kept", a.texels.uv_set)});
+        return room;
+    } catch (const Error&) { // that is why
+        return unwrapped(a, path, document, scene);
+    }
+}
+
+} // namespace prt::cli

@@ -1,0 +1,85 @@
+// Parses the options of volumes.
+
+#include "arguments/volume_arguments.h"
+
+#include "arguments/options.h"
+#include "arguments/suboptions.h"
+#include "prt/support/error.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+namespace prt::cli {
+namespace {
+
+VolumeArguments::WorldBounds parse_bounds(const std::string& text) {
+    VolumeArguments::WorldBounds b;
+    int used = 0;
+    const int numbers = std::sscanf(text.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf%n", &b.least.x, &b.least.y,
+                                    &b.least.z, &b.most.x, &b.most.y, &b.most.z, &used);
+    bool finite = true;
+    for (int a = 0; a < 3; ++a)
+        finite = finite && std::isfinite(b.least[a]) && std::isfinite(b.most[a]);
+    if (numbers != 6 || static_cast<std::size_t>(used) != text.size() || !finite)
+        throw CLI::ValidationError("--volume", "bounds=" + text + ": expected x0,y0,z0,x1,y1,z1 in metres");
+    return b;
+}
+
+} // namespace
+
+void add_volume(CLI::App* command, VolumeArguments& arguments) {
+    VolumeOptions& volume = arguments.volume;
+    const auto check_one = [](bool other) {
+        if (other)
+            throw CLI::ValidationError("--volume", "METRES and probes cannot be combined");
+    };
+    arguments.option =
+        Suboptions(
+            "--volume", "METRES", "also bake a volume of probes, for moving objects; default: no volume",
+            [&volume, check_one](const std::string& text) {
+                const std::optional<double> metres = real_number(text);
+                if (!metres || !(*metres >= 1e-9 && *metres <= static_cast<double>(kFarthestVertex)))
+                    throw CLI::ValidationError("--volume", "'" + text + "' is not a distance in metres");
+                check_one(volume.probes > 0);
+                volume.spacing = *metres;
+            })
+            .detail("METRES: distance between probes near surfaces; it is larger in open space")
+            .whole_number("probes", 125, 1 << 28,
+                          "instead of METRES: the densest volume with at most N probes, 125 to 2^28",
+                          [&volume, check_one](int count) {
+                              check_one(volume.spacing > 0);
+                              volume.probes = static_cast<std::size_t>(count);
+                          })
+            .number("error", 0, 0.99,
+                    "split cells, down to METRES / 4, until the relative L2 error is X [0: no split]",
+                    [&volume](double error) { volume.error = error; })
+            .whole_number("order", 2, kMaxIncidentOrder,
+                          "SH order of the light that arrives at a probe, 2 to 4 [3]",
+                          [&volume](int order) { volume.order = order; })
+            .number(
+                "fit", 0, 100,
+                fmt::format("fit probes to X points per cell; 0: no fit [1 if --rays is at least {}, else 0]",
+                            kRaysWorthAFit),
+                [&volume](double points) { volume.fit_points = points; })
+            .key("bounds", "x0,y0,z0,x1,y1,z1",
+                 "corners of the volume, world space, metres [box of the scene]",
+                 [&arguments](const std::string& text) { arguments.bounds = parse_bounds(text); })
+            .add(command);
+}
+
+void check_volume(const VolumeArguments& arguments) {
+    if (!arguments.given() && arguments.option->count() > 0)
+        throw Error(
+            "--volume needs a distance or a number of probes, as --volume 0.5 or --volume probes=4000");
+}
+
+VolumeOptions volume_options(const VolumeArguments& arguments, const Scene& scene) {
+    VolumeOptions volume = arguments.volume;
+    if (arguments.bounds)
+        volume.bounds = {glm::vec3(arguments.bounds->least - scene.origin),
+                         glm::vec3(arguments.bounds->most - scene.origin)};
+    return volume;
+}
+
+} // namespace prt::cli

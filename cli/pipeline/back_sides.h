@@ -1,0 +1,34 @@
+#pragma once
+
+// Vertices for both sides of double-sided surfaces.
+
+#include "pipeline/model.h"
+#include "prt/bake.h"
+#include "prt/gltf.h"
+
+#include <string>
+#include <vector>
+
+namespace prt::pipeline {
+
+enum class BackSides {
+    automatic, ///< their own light, where light reaches both sides
+    shared,    ///< the light of the front
+};
+
+/// Input of `separate_sides`.
+struct SidesRequest {
+    BackSides sides;
+    const Path& path; ///< path of the scene, for messages
+    const BakeOptions& options;
+    const std::vector<std::string>& no_shadow;
+    bool levels = false; ///< coarser levels of detail, too
+    Notify notify = {};
+};
+/// Replaces document and scene by ones with separate vertices for both sides of double-sided surfaces, if the
+/// light of the sides differs. Reports this as a notice, which is also added to the scene.
+void separate_sides(const SidesRequest& request, GltfDocument& document, Scene& scene);
+/// Sends a notice about the sides of `scene` that need separate vertices but do not get them.
+void note_shared_sides(const SidesRequest& request, const Scene& scene);
+
+} // namespace prt::pipeline

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "pipeline/model.h"
+#include "pipeline/sky_errors.h"
+#include "prt/light_metric.h"
+#include "prt/search.h"
+
+namespace prt::pipeline {
+
+enum class MetricChoice { outdoor, indoor, day, natural, plain };
+/// Returns "outdoor" and so on.
+const char* to_string(MetricChoice choice);
+
+/// Arguments of `prt compress` that describe the expected lighting.
+struct MetricArguments {
+    MetricChoice metric = MetricChoice::outdoor;
+    std::vector<Path> lights; ///< used instead of `metric`
+    LightOptions light_options;
+};
+
+/// The metric, and the lightings under which a requested error is guaranteed.
+struct ErrorTerms {
+    LightMetric metric;
+    std::vector<Lighting> promised; ///< lamps are dark in them
+    std::vector<Lighting> given;    ///< lightings of `promised` that come from `--lights`
+    std::string covers;             ///< a sentence about the lightings for which the guarantee holds
+};
+
+/// Makes `budget` apply to the lightings of `terms`.
+void promise(ErrorTerms& terms, Budget& budget);
+
+/// Returns the `--lights`, with separate suns if the transfer has a separate direct term.
+std::vector<Lighting> given_lights(const MetricArguments& arguments, const TransferLayout& layout,
+                                   int threads);
+
+ErrorTerms error_terms(const MetricArguments& arguments, const std::vector<Lighting>& given,
+                       const TransferView& transfer, std::span<const float> areas, int threads);
+
+} // namespace prt::pipeline

@@ -1,0 +1,59 @@
+#pragma once
+
+// Selects instanced meshes that share transfer, and bakes them.
+
+#include "pipeline/loaded_light.h"
+#include "prt/instance_bake.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace prt::pipeline {
+
+enum class InstanceMode {
+    own,       ///< each instance has separate transfer
+    shared,    ///< instances use the transfer of their mesh times factors
+    automatic, ///< shared if possible, and if it saves three quarters of the receivers
+};
+
+struct InstanceArguments {
+    InstanceMode mode = InstanceMode::own;
+    double error = 0.1;    ///< an instance with a larger error is baked separately
+    bool settings = false; ///< true if a setting of shared transfer was given
+    std::vector<Path> lights;
+    SunCount suns; ///< number of suns of `lights`
+    InstanceBakeOptions bake;
+    Notify notify = {}; ///< receives notices about lights and about meshes that cannot be shared
+};
+
+struct AskedFor {
+    const BakeOptions& options;
+    bool other; ///< texels, volumes or finer meshes, which do not support shared transfer
+};
+/// Returns the meshes whose instances share transfer; none if sharing is off. Sends a notice about meshes
+/// that cannot be shared. Throws `Error` if sharing is required but impossible.
+SharedMeshes meshes_to_share(const InstanceArguments& arguments, const GltfDocument& document,
+                             const Scene& scene, const AskedFor& asked);
+
+struct InstancedBake {
+    std::optional<GltfDocument> document; ///< document to write; empty if no instance can share
+    InstanceBake bake;
+    SharedMeshes meshes;              ///< meshes that share in the result
+    std::vector<double> first_errors; ///< errors of all instances in the first pass
+    std::size_t baked_alone = 0;
+    double seconds = 0; ///< total of all passes
+    std::size_t rays = 0;
+};
+
+struct FlatScene {
+    const GltfDocument& document;
+    const Scene& scene;
+    const std::vector<std::string>& no_shadow;
+};
+/// Bakes, and repeats while instances have too large an error to share. Throws `Error` for a light that
+/// cannot be read.
+InstancedBake bake_shared(const InstanceArguments& arguments, const FlatScene& flat, SharedMeshes meshes,
+                          const BakeOptions& options, const Progress& progress);
+
+} // namespace prt::pipeline

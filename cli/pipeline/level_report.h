@@ -1,0 +1,11 @@
+#pragma once
+
+#include "pipeline/model_levels.h"
+#include "report/report.h"
+
+namespace prt::pipeline {
+
+/// Adds the bake of coarser levels to a report.
+void add_level_bake(const BakedLevels& levels, Report& report);
+
+} // namespace prt::pipeline

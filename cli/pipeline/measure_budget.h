@@ -1,0 +1,25 @@
+#pragma once
+
+// The budget of errors of files.
+
+#include "pipeline/budget_lights.h"
+#include "pipeline/host.h"
+#include "pipeline/model.h"
+#include "pipeline/reading_options.h"
+#include "report/report.h"
+
+namespace prt::pipeline {
+
+/// Input of `add_budget`.
+struct BudgetRequest {
+    Path baked, shipped;    ///< shipped: empty if there is none
+    ReadingOptions reading; ///< options for `shipped`
+    BudgetLightOptions lights;
+    std::vector<std::string> no_shadow; ///< materials that the bake let light through
+};
+
+/// Adds the sources of the error over the surface to `report`. Puts `baked` in the order of the shipped file.
+/// Throws `Error` if path tracing cannot provide a reference.
+void add_budget(BudgetRequest request, SceneFile& baked, Report& report, const Host& host);
+
+} // namespace prt::pipeline

@@ -1,0 +1,107 @@
+#pragma once
+
+// Opens models and environment maps.
+
+#include "pipeline/host.h"
+#include "pipeline/reading_options.h"
+#include "prt/gltf.h"
+#include "prt/image_file.h"
+#include "prt/instances_gltf.h"
+#include "prt/light.h"
+#include "prt/lightmap.h"
+#include "prt/lobe_gltf.h"
+#include "prt/occluder_gltf.h"
+#include "prt/support/error.h"
+#include "prt/volume_gltf.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace prt::pipeline {
+
+/// Options for reading lighting, common to all commands.
+struct LightOptions {
+    EnvironmentOptions environment;
+    Window window = Window::none;
+    double rotation_degrees = 0;
+    Notify notify = {}; ///< receives notices about images
+};
+
+/// Texels of a file, in addition to their transfer.
+struct LightmapOfFile {
+    LightmapLayout layout;
+    /// Receivers of a bake; a compressed file has transfer of all texels.
+    std::vector<std::uint32_t> texels = {};
+    std::vector<float> areas = {};
+    std::vector<Edge> edges = {};
+};
+
+/// A glTF file with all transfer that it contains.
+struct SceneFile {
+    GltfDocument document;
+    Scene scene;
+    std::optional<BakedTransfer> baked;
+    std::optional<CompressedTransfer> compressed;
+    /// Set if receivers of the transfer are texels; otherwise they are vertices.
+    std::optional<LightmapOfFile> lightmap = {};
+    /// Volume of probes, in addition to transfer of surfaces.
+    std::optional<BakedVolume> volume = {};
+    std::optional<CompressedVolume> compressed_volume = {};
+    std::vector<NodeOccluder> occluders = {};
+    std::optional<StoredLobes> lobes = {};
+    /// Set if instances share transfer: `baked` is then expanded to all vertices.
+    std::optional<InstancedModel> instanced = {};
+
+    /// Returns the order of the transfer, 0 without transfer.
+    int order() const;
+    /// Returns the record of the bake; null without transfer.
+    const BakeRecord* record() const;
+};
+/// Returns the layout of a model with transfer.
+const TransferLayout& layout_of(const SceneFile& model);
+/// Opens a file. A model without transfer sends the notices of its scene. Throws `Error` if any data of
+/// prtkit in the file are damaged.
+SceneFile load_scene_file(const Path& path, const ReadingOptions& options = {});
+/// Returns the model of a document that was read from `path`.
+SceneFile scene_file_of(GltfDocument document, const Path& path, const Notify& notify = {});
+
+/// A model that a command writes again with additions.
+struct ModelToPassOn {
+    GltfDocument document;
+    Scene scene;
+};
+/// Reads everything that `load_scene_file` reads, and sends the notices of the scene.
+ModelToPassOn load_to_pass_on(const Path& path, const ReadingOptions& options);
+
+/// Throws `Error` if the transfer is of texels, which `command` does not support.
+void check_of_vertices(const SceneFile& model, const Path& path, const std::string& command);
+
+/// Calls `work` and adds the name of `file` to its errors, once.
+template <class Work>
+auto about(const Path& file, Work work) {
+    try {
+        return work();
+    } catch (const Cancelled&) {
+        throw;
+    } catch (const Error& error) {
+        const std::string what = error.what(), name = file.string() + ": ";
+        throw Error(what.starts_with(name) ? what : name + what);
+    }
+}
+
+/// Puts the receivers of a bake into their order in another file of the scene, because prt compress --reorder
+/// may have moved vertices.
+void put_in_order_of(const Scene& scene, SceneFile& baked);
+
+/// Throws `Error` unless both files have transfer of the same order for the same receivers.
+void check_belong_together(const SceneFile& baked, const Path& baked_path, const SceneFile& shipped,
+                           const Path& shipped_path);
+
+/// Loads an environment map. Sends notices about repaired and clipped values.
+Environment load_environment_map(const Path& path, const EnvironmentOptions& options, const Notify& notify);
+
+/// Returns the suffix of a file name in lower case, with the dot.
+std::string suffix_of(const Path& path);
+
+} // namespace prt::pipeline

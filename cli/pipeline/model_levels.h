@@ -1,0 +1,36 @@
+#pragma once
+
+// Bakes coarser levels of detail.
+
+#include "pipeline/host.h"
+#include "prt/level_bake.h"
+
+#include <optional>
+
+namespace prt::pipeline {
+
+enum class LevelMode {
+    carry,  ///< they copy the transfer of level 0
+    own,    ///< each level is baked in place of level 0
+    ignore, ///< levels are ignored
+};
+
+const char* to_string(LevelMode mode);
+
+/// Levels of a file, and the result of their bake.
+struct BakedLevels {
+    LeveledScene scene;
+    LevelMode mode = LevelMode::carry;
+    LevelBake bake;
+};
+
+/// Returns the levels of `document` if the mode uses them; sends notices about invalid ones. Throws `Error`
+/// if transfer cannot be copied to one.
+std::optional<BakedLevels> find_levels(LevelMode mode, const Path& path, const GltfDocument& document,
+                                       int threads, const Notify& notify);
+
+/// Bakes or copies the transfer of `levels`, given that of level 0.
+void bake_levels(BakedLevels& levels, const Transfer& finest, const BakeOptions& options,
+                 const Progress& progress);
+
+} // namespace prt::pipeline

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "prt/gltf.h"
+#include "prt/occluder_bake.h"
+#include "report/report.h"
+
+namespace prt::pipeline {
+
+/// Bakes the occlusion volume of each rigid part of `scene`, and writes it into `document`, from which
+/// `scene` was extracted.
+Report bake_occluders(GltfDocument& document, const Scene& scene, const OccluderOptions& options,
+                      const Progress& progress);
+
+} // namespace prt::pipeline

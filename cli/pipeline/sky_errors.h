@@ -1,0 +1,24 @@
+#pragma once
+
+// Measures errors of a compressed transfer under skies, at every rotation about +Y.
+
+#include "prt/error_moments.h"
+#include "prt/standard_skies.h"
+#include "report/report.h"
+
+namespace prt::pipeline {
+
+/// A use of a lighting: all light in the sky, or its suns separate from it.
+struct LightingUse {
+    Lighting lighting;
+    bool separate_suns = false;
+};
+/// Returns the uses of `lighting`; its suns are separate if it has any and `layout` has a separate direct
+/// term.
+std::vector<LightingUse> uses_of(const Lighting& lighting, const TransferLayout& layout);
+
+/// Adds table `skies` to `report`, and a sentence with the errors of each sky. Lamps are off. Does nothing if
+/// the transfer has no distant light.
+void add_sky_errors(const ErrorMoments& moments, const std::vector<Lighting>& skies, Report& report);
+
+} // namespace prt::pipeline

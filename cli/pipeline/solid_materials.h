@@ -1,0 +1,15 @@
+#pragma once
+
+#include "pipeline/model.h"
+
+#include <vector>
+
+namespace prt::pipeline {
+
+/// Returns the materials with a medium inside that all light passes: they are not thin sheets, and suns light
+/// them only through transfer. [materials] Media that glTF describes are found in the file. Media of
+/// --subsurface are found in a bake, because no vertex of such a material has direct light; a compressed file
+/// does not contain this information, and texels have no media.
+std::vector<bool> solid_materials(const SceneFile& model);
+
+} // namespace prt::pipeline
