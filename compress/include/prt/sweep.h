@@ -21,7 +21,8 @@ struct SweepPoint {
     std::string method, setting;
     double payload_bytes = 0; ///< bytes per receiver that a game binds: whole 32-bit words, without tables
     double table_bytes = 0;   ///< bytes of bases and all other tables, divided by the number of receivers
-    /// Mean number of multiply-adds of a color per receiver: components, for prtkit also predictor rows.
+    /// Mean number of multiply-adds of a color per receiver: components, for prtkit also predictor rows, for
+    /// truncated SH the coefficients.
     double mean_components = 0;
     double lit_rms = 0; ///< relative L2 error of exit radiance; root mean square over the lights of the sweep
     double relative_l2 = 0; ///< relative L2 error of transfer vectors, weighted by area
@@ -29,7 +30,7 @@ struct SweepPoint {
     /// between clusters, in the unit of `LitError::inner`; root mean square over the lights. 0 if the surface
     /// has no edges.
     double jumps = 0;
-    double seconds = 0; ///< duration of compression; 0 for truncated SH, which is not measured
+    double seconds = 0; ///< duration of compression, or of `run` of a candidate; 0 for truncated SH
 
     /// Returns the size in bytes per receiver, including tables.
     double bytes() const { return payload_bytes + table_bytes; }
