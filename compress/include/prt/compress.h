@@ -48,8 +48,8 @@ struct WeightCoding {
     /// distributes the bits over its components to minimise the error. Ignored if `fixed_bits` is not empty.
     int bits = 24;
     /// [components] number of bits of each component, 1..16 each, the same in all clusters. Only the first
-    /// kMaxPackedComponents elements are used. The length also limits the number of components. Empty: each
-    /// cluster distributes `bits`.
+    /// kMaxPackedComponents elements are used; their sum must be at most kMaxPackedBits, which is not
+    /// checked. The length also limits the number of components. Empty: each cluster distributes `bits`.
     std::vector<int> fixed_bits = {};
     /// Number of bits of the cluster index in the words, 1..16. CompressOptions::clusters must be at most 2
     /// to this power. 0: the minimum for the number of clusters of the result.

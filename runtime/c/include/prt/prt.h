@@ -64,7 +64,7 @@ PRT_API prt_status prt_sh_rotate(int order, const float rotation[9], const float
 PRT_API prt_status prt_light_constant(int order, const float radiance[3], float* light, prt_message* message);
 /* Writes to `light` [order*order][3] a distant light without extent. `towards` is the direction from the
  * receiver to the light, of any length except 0. `irradiance` (radiance times sr) arrives at an unoccluded
- * receiver whose normal is `towards`. */
+ * receiver whose normal is `towards`; `order` bands approximate this. */
 PRT_API prt_status prt_light_directional(int order, const float towards[3], const float irradiance[3],
                                          float* light, prt_message* message);
 /* Writes to `light` [order*order][3] the light with radiance `radiance` from all directions within
@@ -170,7 +170,8 @@ typedef struct prt_model_info {
                                    PRT_FLOAT32, prt_words_* if PRT_PACKED */
     const uint16_t* cluster_of; /* [receivers] index of the cluster: vertex attribute prt_cluster; packed
                                    weights contain it already */
-    const uint32_t* cluster_table; /* [clusters][4]: the buffer or texture prt_clusters */
+    const uint32_t* cluster_table; /* [clusters][4]: the buffer or texture prt_clusters, which the shader
+                                      lacks if all clusters have the same layout */
     size_t meshes;                 /* number of meshes, see prt_mesh */
     int has_direct_term;           /* 1 if the constants can exclude the direct light of suns, else 0; see
                                       prt_model_update_constants_separate */
