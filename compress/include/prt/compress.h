@@ -102,9 +102,9 @@ struct CompressOptions {
 /// fractions, weighted by area: 0.01 is 1 %.
 struct CompressStatistics {
     /// Relative error, before weights are quantised, after each round of clustered PCA that decreased the
-    /// cost. Ends before clusters are split and merged; later rounds are not included. It approximates
-    /// `lit_rms`, but receivers with more visible errors count more. With lamps it is an error of logarithms
-    /// of light and cannot be compared with `lit_rms`.
+    /// cost. The list ends before clusters are split and merged; it does not include later rounds. It
+    /// approximates `lit_rms`, but receivers with more visible errors count more. With lamps it is an error
+    /// of logarithms of light and cannot be compared with `lit_rms`.
     std::vector<double> lit_rms_by_iteration;
     double lit_rms = 0; ///< `expected_lit_rms` (prt/light_metric.h) of the result under the metric
     /// Contrast error (docs/math.md, eq. 33b) with one lamp on and all other light off: root mean square over

@@ -62,7 +62,7 @@ std::vector<Lighting> members_of_family(LightFamily family, int order);
 /// distant light as in `natural_metric`. Adds the distant part of `natural_metric` with a hundredth of the
 /// power, so that every error has a cost. Throws `Error` if the layout is invalid, if a light has fewer bands
 /// than the layout or is not finite, or if no light reaches a term of distant light (no lights, only black
-/// lights, or no such term).
+/// lights, or a layout with lamps only).
 LightMetric metric_of_lights(std::span<const Lighting> lights, const TransferLayout& layout);
 /// Returns the metric for skies without separate suns, by the other overload of `metric_of_lights`: direct
 /// terms receive the same light as the other terms. Throws the same errors.

@@ -284,9 +284,9 @@ PRT_API prt_status prt_instances_of_mesh(const prt_model* model, size_t mesh, si
                                          prt_message* message);
 /* Computes the constants of all instances and writes them to `constants` [prt_instances_info.constants][4].
  * The shader of prt_instances_shader reads these instead of the constants of the model. `order`, `sky`,
- * `suns` and the limits are those of prt_model_update_constants_separate; `suns` may be null. Such models
- * have no lamps. `threads`: number of threads, 0: all of the machine. For a model without instances returns
- * PRT_BAD_ARGUMENT. */
+ * `suns` and the limits are those of prt_model_update_constants_separate; `suns` may be null. Models with
+ * instances have no lamps. `threads`: number of threads, 0: all of the machine. For a model without instances
+ * returns PRT_BAD_ARGUMENT. */
 PRT_API prt_status prt_instances_update_constants(const prt_model* model, int order, const float* sky,
                                                   const float* suns, int threads, float* constants,
                                                   prt_message* message);
