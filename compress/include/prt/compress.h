@@ -23,8 +23,7 @@ namespace prt {
 
 /// Maximum number of 32-bit words per receiver for the cluster index and packed weights together.
 inline constexpr int kMaxPackedWords = 8;
-/// Maximum number of bits of all packed weights of a receiver: 240. The remaining 16 bits of the words can
-/// hold the cluster index.
+/// Maximum of WeightCoding::bits: 240. The remaining 16 bits of the words can hold the cluster index.
 inline constexpr int kMaxPackedBits = 32 * kMaxPackedWords - 16;
 
 /// Maximum magnitude of a transfer coefficient that can be compressed. Typical coefficients are below 1;
@@ -48,10 +47,12 @@ struct WeightCoding {
     /// Total number of bits of all weights of a receiver, 0..kMaxPackedBits; 0: no components. Each cluster
     /// distributes the bits over its components to minimise the error. Ignored if `fixed_bits` is not empty.
     int bits = 24;
-    /// [components] number of bits of each component, 1..16 each, the same in all clusters. The length also
-    /// limits the number of components. Empty: each cluster distributes `bits`.
+    /// [components] number of bits of each component, 1..16 each, the same in all clusters. Only the first
+    /// kMaxPackedComponents elements are used; their sum must be at most kMaxPackedBits, which is not
+    /// checked. The length also limits the number of components. Empty: each cluster distributes `bits`.
     std::vector<int> fixed_bits = {};
-    /// Number of bits of the cluster index in the words, 1..16; 0: the minimum for the number of clusters.
+    /// Number of bits of the cluster index in the words, 1..16. CompressOptions::clusters must be at most 2
+    /// to this power. 0: the minimum for the number of clusters of the result.
     int cluster_bits = 0;
 };
 
@@ -74,9 +75,9 @@ WeightCoding preset_u64x9();
 struct CompressOptions {
     int clusters = 256; ///< maximum number of clusters, 1..65536; clusters without receivers are removed
     WeightCoding coding = {}; ///< storage format of cluster index and weights
-    /// Maximum of the number of components per receiver, averaged over all receivers. Each component costs
-    /// one multiply-add of a color in the vertex shader; predictors are not counted. Clusters then have
-    /// different numbers of components. 0: no limit except WeightCoding::components.
+    /// Maximum of the mean number of components per receiver; finite and at least 0. Each component costs one
+    /// multiply-add of a color in the vertex shader; predictors are not counted. Clusters then have different
+    /// numbers of components. 0: no limit except WeightCoding::components.
     double mean_components = 0;
     PredictorChoice predictors = PredictorChoice::normal; ///< receiver attributes that act as predictors
     /// Squared error that rounding of the bases may add, as a fraction of the squared error with exact bases:
@@ -100,7 +101,8 @@ struct CompressOptions {
 /// Measurements of a compression. "The metric" is CompressOptions::metric or its default. Errors are
 /// fractions, weighted by area: 0.01 is 1 %.
 struct CompressStatistics {
-    /// [rounds of clustered PCA] relative error after the round, before weights are quantised. It
+    /// Relative error, before weights are quantised, after each round of clustered PCA that decreased the
+    /// cost. The list ends before clusters are split and merged; it does not include later rounds. It
     /// approximates `lit_rms`, but receivers with more visible errors count more. With lamps it is an error
     /// of logarithms of light and cannot be compared with `lit_rms`.
     std::vector<double> lit_rms_by_iteration;
@@ -146,10 +148,11 @@ struct CompressResult {
 /// order; receivers with area 0 do not count in the error. Keeps no references. The result does not depend on
 /// the number of threads. Thread-safe.
 ///
-/// Throws `Error` for options out of range, for transfer without receivers, for arrays of `surface` with
-/// another number of receivers, for transfer above `kMaxInputTransfer`, for numbers that are not finite, for
-/// edges to receivers that do not exist, and for a metric with another layout. Throws `Cancelled` after a
-/// stop request.
+/// Throws `Error` for an invalid layout, for options out of range, for a metric with another layout, for
+/// transfer without receivers, and for transfer that is not finite or exceeds `kMaxInputTransfer`. Throws
+/// `Error` if an array of `surface` has another number of receivers (`normals` and `positions` may be empty),
+/// if areas, normals or positions are not finite, and if edges or jumps refer to receivers that do not exist.
+/// Throws `Cancelled` after a stop request.
 ///
 /// Memory per receiver, in addition to the arguments: two bytes (four bytes below 65 536 receivers) for every
 /// coefficient and predictor coordinate that contributes to the error, three times the size of the compressed

@@ -12,12 +12,14 @@ namespace prt {
 
 /// The initial clusters exist: from vector quantisation, or in a search from the clusters of an earlier
 /// trial. `clusters`: number of clusters. `axes`: number of principal axes of the transfer vectors that the
-/// compressor keeps; it drops axes with almost no variance.
+/// compressor keeps; it drops axes with almost no variance. If it dropped too much, it starts again with more
+/// axes, and this event occurs again.
 struct ClustersSeeded {
     std::size_t clusters, axes;
 };
 
-/// One round of clustered PCA has ended. Weights are not quantised yet.
+/// One round of clustered PCA has ended. Weights are not quantised yet. Rounds that add components, that test
+/// moves, or that limit the mean number of components cause no event.
 struct ClusteringRound {
     int component_limit; ///< maximum number of components of a cluster in this round
     /// Squared error, weighted as in docs/math.md, eq. 28c (with lamps: approximately eq. 28b), plus the
@@ -48,8 +50,9 @@ struct MovesTried {
     /// `ClusteringRound::cost` before the merges and splits, and after these moves plus some rounds of
     /// clustering.
     double cost_before, cost_after;
-    bool kept; ///< true: the merges and splits remain, because the cost decreased; false: the compressor
-               ///< reverts all of them
+    /// True: the merges and splits remain, because the cost decreased by more than a small fraction. False:
+    /// the compressor reverts all of them.
+    bool kept;
 };
 
 /// One round has ended in which the compressor chose the codes of receivers (cluster and quantised weights)

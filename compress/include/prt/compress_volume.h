@@ -12,9 +12,9 @@ namespace prt {
 /// outputs. The view keeps a reference to `volume`, which must outlive the view.
 TransferView as_probes(const BakedVolume& volume);
 
-/// Returns a metric for vectors with `outputs` outputs, 4, 9 or 16. The cost of an error is the sum over the
-/// outputs of the cost under `of_one`, a metric of exit radiance (one output). This sum is proportional to
-/// the squared error of incident light, averaged over all directions.
+/// Returns a metric for vectors with `outputs` outputs: 4, 9 or 16, which is not checked. The cost of an
+/// error is the sum over the outputs of the cost under `of_one`, a metric of exit radiance (one output). This
+/// sum is proportional to the squared error of incident light, averaged over all directions.
 LightMetric incident_metric(const LightMetric& of_one, std::size_t outputs);
 
 /// Returns a coding with 128 bits per probe: 8 bits for the cluster index, which allow up to 256 clusters,
@@ -23,7 +23,7 @@ WeightCoding preset_volume();
 
 /// Result of `compress_volume`.
 struct CompressedVolumeResult {
-    CompressedVolume volume;       ///< grid and visibility are those of the input
+    CompressedVolume volume;       ///< grid, order, visibility and record are those of the input
     CompressStatistics statistics; ///< receivers are probes; `sky_contrast` and `lamp_contrast` are 0
 };
 

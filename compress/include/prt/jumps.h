@@ -22,7 +22,8 @@ inline constexpr int kRotationsOfJumps = 24;
 
 /// Measures jumps of the contrast error along the edges between two clusters, as `VisibleError::seams` does
 /// (docs/math.md, eq. 33c), for any number of approximations of one reference. Keeps references to
-/// `reference` and to the arrays that `surface` views; both must outlive the object.
+/// `reference` and to the arrays that `surface` views; both must outlive the object. Edges must refer to
+/// existing receivers, which is not checked.
 class ClusterJumps {
 public:
     /// Prepares to measure jumps whose root mean square is taken over all lightings of `metric`. Uses
@@ -31,9 +32,10 @@ public:
     ClusterJumps(const TransferView& reference, const ReceiverSurface& surface, const LightMetric& metric,
                  int threads = 0);
     /// Prepares to measure jumps separately under each of `skies` at each of kRotationsOfJumps rotations.
-    /// Uses `surface.areas` [receivers] and `surface.edges`. `threads` 0: all. Throws `Error` if a sky has
-    /// fewer bands than the layout of `reference` or another number of lamps, and if the numbers of areas and
-    /// receivers differ.
+    /// Requires a layout with one output. Uses `surface.areas` [receivers] and `surface.edges`. `threads` 0:
+    /// all. Throws `Error` if a sky or its suns have fewer bands than the layout of `reference` or are not
+    /// finite, if the number of lamp strengths is neither 0 nor the number of lamps, or if the numbers of
+    /// areas and receivers differ.
     ClusterJumps(const TransferView& reference, const ReceiverSurface& surface,
                  std::span<const Lighting> skies, int threads = 0);
     ~ClusterJumps();
@@ -41,8 +43,8 @@ public:
     /// Returns the 99th percentile of the jumps of `approximation` along the edges between two clusters, each
     /// edge weighted by the area of its two ends. With skies: the maximum of this percentile over skies and
     /// rotations. `clusters` [receivers] is the cluster of each receiver. Returns 0 if no edge connects two
-    /// clusters. Throws `Error` if `approximation` and the reference differ in layout or number of receivers,
-    /// or if `clusters` or the areas have another length.
+    /// clusters, or if there are no skies. Throws `Error` if `approximation` and the reference differ in
+    /// layout or number of receivers, or if `clusters` has another length.
     double percentile_99(const TransferView& approximation, std::span<const std::uint16_t> clusters) const;
 
 private:

@@ -1,6 +1,8 @@
 #pragma once
 
-// Cost of a transfer error: the mean squared error of exit radiance over a set of lightings.
+// Cost of a transfer error: the mean squared error of exit radiance over a set of lightings. The functions
+// that create a metric require a layout with one output, which is not checked; `incident_metric`
+// (prt/compress_volume.h) extends a metric to several outputs.
 
 #include "prt/light.h"
 #include "prt/transfer_view.h"
@@ -25,9 +27,10 @@ struct LightMetric {
 LightMetric plain_metric(const TransferLayout& layout);
 
 /// Returns the metric of average lighting, indoors and outdoors, with all 3D rotations equally likely: the
-/// band powers of docs/math.md, section 4. If the layout has a direct term, this term receives the suns in
-/// only half of the cases (in the other half the renderer adds them); other terms always receive them. Lamps
-/// have strength 1 and are uncorrelated. Throws `Error` if `layout` is invalid.
+/// band powers of docs/math.md, section 4. If the layout has both a direct and an indirect term, the direct
+/// term receives the suns in only half of the cases (in the other half the renderer adds them). All other
+/// terms always receive them. Lamps have strength 1 and are uncorrelated. Throws `Error` if `layout` is
+/// invalid.
 LightMetric natural_metric(const TransferLayout& layout);
 
 /// Families of lightings. In all families except `natural`, +Y is up, and all rotations about +Y are equally
@@ -39,16 +42,17 @@ enum class LightFamily {
     day,     ///< clear skies at different hours, the sun at 11 to 45 degrees elevation
 };
 
-/// Returns the mean of the second moments over the lightings of a family, each scaled to the same mean square
-/// of exit radiance over unoccluded receivers. If the layout has a direct term, this term receives the suns
-/// in only half of the cases. Adds `natural_metric` with a hundredth of the power, so that every error has a
-/// cost. For a layout with lamps only, returns `natural_metric`. Takes 0.1 to 0.3 s, because analytic skies
-/// are integrated. Throws `Error` if `layout` is invalid.
+/// Returns the weighted mean of the second moments over the lightings of a family, each scaled to the same
+/// mean square of exit radiance over unoccluded receivers. If the layout has a direct term, this term
+/// receives the suns in only half of the cases. Adds the distant part of `natural_metric` with a hundredth of
+/// the power, so that every error has a cost. Lamps are uncorrelated, and have the same power relative to
+/// distant light as in `natural_metric`. Returns `natural_metric` for `natural`, and for a layout with lamps
+/// only. Takes 0.1 to 0.3 s, because analytic skies are integrated. Throws `Error` if `layout` is invalid.
 LightMetric metric_of_family(LightFamily family, const TransferLayout& layout);
 
 /// Returns typical lightings of a family as SH of `order` bands (1..kMaxOrder), with separate suns if they
 /// have any; other lightings of the family are similar to one of these. Returns an empty vector for
-/// `natural`.
+/// `natural`. Throws `Error` for another family if `order` is out of range.
 std::vector<Lighting> members_of_family(LightFamily family, int order);
 
 /// Returns the mean of the second moments over `lights`, each scaled to the same energy (sum of squared
@@ -56,8 +60,9 @@ std::vector<Lighting> members_of_family(LightFamily family, int order);
 /// direct term receives only the sky, other terms of distant light receive sky plus suns, as in `Lighting`.
 /// Ignores black lights and `Lighting::lamps`: lamps are uncorrelated, and have the same power relative to
 /// distant light as in `natural_metric`. Adds the distant part of `natural_metric` with a hundredth of the
-/// power, so that every error has a cost. Throws `Error` if a light has fewer bands than the layout, if
-/// all lights are black, if there are no lights, or if the layout has no term of distant light.
+/// power, so that every error has a cost. Throws `Error` if the layout is invalid, if a light has fewer bands
+/// than the layout or is not finite, or if no light reaches a term of distant light (no lights, only black
+/// lights, or a layout with lamps only).
 LightMetric metric_of_lights(std::span<const Lighting> lights, const TransferLayout& layout);
 /// Returns the metric for skies without separate suns, by the other overload of `metric_of_lights`: direct
 /// terms receive the same light as the other terms. Throws the same errors.
@@ -65,10 +70,10 @@ LightMetric metric_of_lights(std::span<const Light> lights, const TransferLayout
 
 /// Returns `metric` with a new factor for each lamp. Costs are measured on the vectors of `transfer` (cost of
 /// replacing them by 0), weighted by `areas` [receivers]. With these factors each lamp has the same cost, and
-/// all lamps together have the cost of distant light; without distant light the sum of the lamps' costs does
-/// not change. An error then has the same weight by day and by night, for any strength of the lamps. Lamps
-/// without effect on the receivers keep their factor. `metric` and `transfer` must have the same layout.
-/// `threads` 0: all.
+/// all lamps together have the cost of distant light; if distant light has no cost, the sum of the lamps'
+/// costs does not change. An error then has the same weight by day and by night, for any strength of the
+/// lamps. Lamps without effect on the receivers keep their factor. `metric` and `transfer` must have the same
+/// layout, which is not checked. `threads` 0: all.
 LightMetric balanced(LightMetric metric, const TransferView& transfer, std::span<const float> areas,
                      int threads = 0);
 

@@ -17,7 +17,7 @@ namespace prt {
 /// `share` outside 0..1 are clamped.
 glm::vec3 heat_color(double share);
 /// Returns a color for the number `label`, to distinguish clusters or charts. Colors of consecutive numbers
-/// differ strongly; no two numbers have the same color.
+/// differ strongly. All numbers below 65 536 have different colors.
 glm::vec3 label_color(std::size_t label);
 
 /// Returns for each receiver the `label_color` of its cluster index.
@@ -31,9 +31,8 @@ std::vector<glm::vec3> component_colors(const ClusteredTransfer& transfer);
 inline constexpr double kWhiteError = 0.1;
 
 /// Returns for each receiver the `heat_color` of its contrast error (`ContrastErrors::magnitudes`), divided
-/// by `kWhiteError`. `approximation` and `reference` are exit radiance; these and `areas` are [receivers].
-/// All numbers must be finite, which is not
-/// checked.
+/// by `kWhiteError`. `approximation` and `reference` are exit radiance; they and `areas` are [receivers]. All
+/// numbers must be finite, which is not checked.
 std::vector<glm::vec3> error_colors(std::span<const glm::vec3> reference,
                                     std::span<const glm::vec3> approximation, std::span<const float> areas);
 
@@ -43,9 +42,8 @@ inline constexpr double kWhiteSeam = 0.05;
 /// Returns for each receiver the `heat_color` of its maximum jump divided by `kWhiteSeam`. A jump is the
 /// absolute difference of the signed contrast errors (`ContrastErrors::luminances`) at the two ends of an
 /// edge between two clusters. Receivers without such an edge are dark blue. `approximation` and `reference`
-/// are exit radiance. All arrays except `edges` are [receivers]; `clusters` is the cluster of each receiver.
-/// All numbers must be finite, which is not
-/// checked.
+/// are exit radiance. All arrays except `edges` are [receivers], and `edges` has indices of receivers;
+/// `clusters` is the cluster of each receiver. All numbers must be finite, which is not checked.
 std::vector<glm::vec3> seam_colors(std::span<const glm::vec3> reference,
                                    std::span<const glm::vec3> approximation, std::span<const float> areas,
                                    std::span<const Edge> edges, std::span<const std::uint16_t> clusters);

@@ -31,7 +31,8 @@ struct ReceiverSurface {
 
 /// Receiver attributes that act as predictors (prt/clustered_bases.h). The renderer must have these vertex
 /// attributes. Each predictor costs three multiply-adds of a color in the vertex shader, and three rows per
-/// cluster. A predictor whose attribute is missing in `ReceiverSurface`, or zero everywhere, is not used.
+/// cluster. A predictor is not used if its attribute is missing in `ReceiverSurface`, or is equal at all
+/// receivers.
 enum class PredictorChoice {
     none,               ///< no predictors
     normal,             ///< the normal

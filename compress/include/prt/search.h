@@ -58,17 +58,19 @@ std::vector<PromiseKept> promises_of(const Budget& budget, const SearchTrial& tr
 
 /// Settings of a search.
 struct SearchOptions {
-    /// Settings of each trial. The search keeps the metric, `seam_weight`, `seed`, `threads`, `trace` and the
-    /// format of weights. It replaces the sizes (`clusters`, `predictors`, components, bits), except as the
-    /// following members specify.
+    /// Settings of each trial; all must be valid for `compress`. The search keeps the metric, `seam_weight`,
+    /// `seed`, `threads`, `trace` and the format of weights. It also keeps `mean_components` unless the
+    /// budget limits operations, and `basis_share`, for which it tries other values if there are few
+    /// receivers. It replaces `bases_count` and the sizes (`clusters`, `predictors`, components, bits),
+    /// except as the following members specify.
     CompressOptions compress;
     bool choose_clusters = true; ///< true: the search chooses the number; false: it uses compress.clusters
     /// True: the search chooses the maximum number of components of a cluster. False: it uses
     /// compress.coding.components, for packed and float weights.
     bool choose_components = true;
     bool choose_predictors = true; ///< true: the search chooses; false: it uses compress.predictors
-    /// Size of the weights of a receiver. Packed: number of 32-bit words, including the cluster index. Float:
-    /// number of groups of four weights. 0: the search chooses.
+    /// Size of the weights of a receiver. Packed: number of 32-bit words, including the cluster index, at
+    /// most kMaxPackedWords. Float: number of groups of four weights. 0: the search chooses.
     int payload = 0;
     Budget budget; ///< limits for the result
 };
@@ -85,11 +87,13 @@ struct SearchResult {
 };
 
 /// Compresses within `options.budget`. With `max_error` it minimises the bytes, else the error. It chooses
-/// predictors and the numbers of clusters, components and bits. If only `operations` limit the result, its
-/// size is at most that of a preset (see `compress_preset`) with 512 clusters. Takes three to six times as
-/// long as `compress`. If no trial meets the budget, this is not an error: `SearchResult::kept` is false.
-/// Throws the errors of `compress`. Throws `Error` if the budget has no limit except `max_jump`, if a limit
-/// is not positive, if skies are set without their limit, or if fixed predictors exceed `operations`.
+/// predictors and the numbers of clusters, components and bits. If the budget limits neither error nor bytes,
+/// it chooses at most 512 clusters, and aims at bases of at most twice the bytes of the weights. Takes three
+/// to six times as long as `compress`. If no trial meets the budget, this is not an error:
+/// `SearchResult::kept` is false. Throws the errors of `compress`. Throws `Error` if the budget has no limit
+/// except `max_jump`, if a limit is not positive and finite, if skies are set without their limit, or if
+/// fixed predictors exceed `operations`. For skies of the budget throws the errors of
+/// `lit_rms_over_rotations` (prt/error_moments.h) and of `ClusterJumps` (prt/jumps.h).
 SearchResult compress_within(const TransferView& transfer, const ReceiverSurface& surface,
                              const SearchOptions& options, const Progress& progress = {});
 

@@ -21,14 +21,16 @@ struct SweepPoint {
     std::string method, setting;
     double payload_bytes = 0; ///< bytes per receiver that a game binds: whole 32-bit words, without tables
     double table_bytes = 0;   ///< bytes of bases and all other tables, divided by the number of receivers
-    /// Mean number of multiply-adds of a color per receiver: components, for prtkit also predictor rows.
+    /// Mean number of multiply-adds of a color per receiver: components, for prtkit also predictor rows, for
+    /// truncated SH the coefficients.
     double mean_components = 0;
     double lit_rms = 0; ///< relative L2 error of exit radiance; root mean square over the lights of the sweep
     double relative_l2 = 0; ///< relative L2 error of transfer vectors, weighted by area
-    /// 99th percentile of the jumps of exit radiance along all edges (`LitError::inner`), inside clusters and
-    /// between clusters; root mean square over the lights. 0 if the surface has no edges.
+    /// 99th percentile of the jumps of the error of exit radiance along all edges, inside clusters and
+    /// between clusters, in the unit of `LitError::inner`; root mean square over the lights. 0 if the surface
+    /// has no edges.
     double jumps = 0;
-    double seconds = 0; ///< duration of compression; 0 for truncated SH, which is not measured
+    double seconds = 0; ///< duration of compression, or of `run` of a candidate; 0 for truncated SH
 
     /// Returns the size in bytes per receiver, including tables.
     double bytes() const { return payload_bytes + table_bytes; }
@@ -36,10 +38,14 @@ struct SweepPoint {
 
 /// Result of a comparison.
 struct Sweep {
-    std::vector<SweepPoint> by_bytes; ///< all methods, each at settings for the sizes `kSweepBytes`
+    /// All methods at several sizes. prtkit has one point for each limit of `kSweepBytes`; the clustered
+    /// methods of the literature have several numbers of clusters, each with the most components within each
+    /// limit. Truncated SH has all orders, plain PCA fixed numbers of components.
+    std::vector<SweepPoint> by_bytes;
     /// All methods at several numbers of components. The clustered methods of the literature have
-    /// `kSweepComponents` components, with `kSweepClusters` clusters, or one per `kMinReceiversPerCluster`
-    /// receivers if that is fewer. prtkit has at most the multiply-adds and the bytes of classic CPCA.
+    /// `kSweepComponents` components (vector quantisation has 0), with `kSweepClusters` clusters, or one per
+    /// `kMinReceiversPerCluster` receivers if that is fewer. prtkit has at most the multiply-adds and the
+    /// bytes of classic CPCA.
     std::vector<SweepPoint> by_components;
     std::vector<std::string> left_out; ///< one sentence for each missing point of prtkit, with the reason
 };
@@ -76,7 +82,8 @@ struct SweepCandidate {
 /// Measures this compressor, the methods of prt/baselines.h and the candidates `others` on `transfer`.
 /// `lights` are the skies for the errors; these should differ from the lights that `options.metric`
 /// represents. `options` apply to this compressor, except sizes; `seed` and `threads` apply to all built-in
-/// methods. Takes minutes. Throws the errors of `compress_within`.
+/// methods. Takes minutes. Throws the errors of `compress_within` and of `others`, and `Error` if a light has
+/// fewer bands than `transfer`.
 Sweep sweep(const Transfer& transfer, const ReceiverSurface& surface, std::span<const Light> lights,
             const CompressOptions& options, std::span<const SweepCandidate> others = {},
             const Progress& progress = {});

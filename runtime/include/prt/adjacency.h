@@ -26,7 +26,7 @@ std::vector<Edge> unique_edges(std::vector<Edge> edges);
 class Adjacency {
 public:
     /// Builds the lists from `edges`, the result of `unique_edges`. Both ends of every edge must be less than
-    /// `receivers`, the number of receivers.
+    /// `receivers`, the number of receivers. Neither is checked.
     Adjacency(std::span<const Edge> edges, std::size_t receivers);
 
     /// Returns the number of receivers.

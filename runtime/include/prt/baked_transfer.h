@@ -12,9 +12,11 @@ namespace prt {
 
 /// Hardware that runs a bake.
 enum class Backend {
-    automatic, ///< option only: a hardware GPU if available, else the CPU; `BakeRecord` has the actual one
-    cpu,       ///< CPU (Embree)
-    gpu,       ///< GPU with Vulkan 1.2
+    /// Option only: a hardware GPU if available, else the CPU (an error for BakeMethod::raster). `BakeRecord`
+    /// has the actual one.
+    automatic,
+    cpu, ///< CPU (Embree); not for BakeMethod::raster
+    gpu, ///< GPU with Vulkan 1.2; with OpenGL 4.5 for BakeMethod::raster
 };
 
 /// Method by which a bake samples the visibility of the surroundings of receivers.

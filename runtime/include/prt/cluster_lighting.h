@@ -66,8 +66,8 @@ private:
 };
 
 /// Blends the constants `a` and `b` of one model under two lightings: out = a + share (b - a). `share` 0
-/// returns `a`, 1 returns `b`; other values are not clamped. All spans have the same length; `out` may be `a`
-/// or `b`.
+/// gives `a`; 1 gives `b`, up to rounding; other values are not clamped. All spans must have the same length,
+/// which is not checked; `out` may be `a` or `b`.
 void blend_constants(std::span<const glm::vec4> a, std::span<const glm::vec4> b, float share,
                      std::span<glm::vec4> out);
 

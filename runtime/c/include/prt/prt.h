@@ -28,8 +28,9 @@ extern "C" {
 /* Result of a function. */
 typedef enum prt_status {
     PRT_OK = 0,
-    PRT_BAD_ARGUMENT = 1, /* a null pointer, an order outside 1..10, a direction of length 0, a matrix that is
-                             not a rotation, an index out of range, a value that is not finite */
+    PRT_BAD_ARGUMENT = 1, /* an invalid argument, such as a null pointer, an order outside 1..10, a direction
+                             of length 0, a matrix that is not a rotation, an index or enumerator out of
+                             range, a value that is not finite */
     PRT_BAD_FILE = 2,     /* the file is missing, damaged, or lacks the requested data */
     PRT_NO_MEMORY = 3,    /* an allocation failed */
     PRT_TOO_SMALL = 4, /* the buffer is too small; the function writes the required size to *size or *count */
@@ -47,7 +48,7 @@ typedef struct prt_message {
  * unless a comment states otherwise. */
 
 /* Writes the values of the order*order SH basis functions in direction `direction` to `basis` [order*order].
- * `direction` must have length 1. */
+ * `direction` must have length 1; other lengths except 0 give values without meaning. */
 PRT_API prt_status prt_sh_evaluate(int order, const float direction[3], float* basis, prt_message* message);
 /* Computes the SH coefficients of the product of two functions of direction, truncated to `order` bands. `a`,
  * `b` and `out` are [order*order], one channel each; `out` may be `a` or `b`. */
@@ -63,21 +64,23 @@ PRT_API prt_status prt_sh_rotate(int order, const float rotation[9], const float
 PRT_API prt_status prt_light_constant(int order, const float radiance[3], float* light, prt_message* message);
 /* Writes to `light` [order*order][3] a distant light without extent. `towards` is the direction from the
  * receiver to the light, of any length except 0. `irradiance` (radiance times sr) arrives at an unoccluded
- * receiver whose normal is `towards`. */
+ * receiver whose normal is `towards`; `order` bands approximate this. */
 PRT_API prt_status prt_light_directional(int order, const float towards[3], const float irradiance[3],
                                          float* light, prt_message* message);
 /* Writes to `light` [order*order][3] the light with radiance `radiance` from all directions within
- * `half_angle` (radians, 0..pi) of `axis`, and radiance 0 from all others. `axis` has any length except 0. */
+ * `half_angle` (radians, 0..pi) of `axis`, and radiance 0 from all others. `axis` has any length except 0.
+ * For another half angle returns PRT_BAD_ARGUMENT. */
 PRT_API prt_status prt_light_cone(int order, const float axis[3], float half_angle, const float radiance[3],
                                   float* light, prt_message* message);
 /* Writes to `light` [order*order][3] the light at the origin of a sphere that emits radiance `radiance`.
- * `center` and `radius` are in one unit, such as metres. If the origin is inside the sphere, or `radius` is
- * not positive, returns PRT_BAD_ARGUMENT. */
+ * `center` and `radius` are in one unit, such as metres. If the origin is inside the sphere or on it, or
+ * `radius` is not positive, returns PRT_BAD_ARGUMENT. */
 PRT_API prt_status prt_light_sphere(int order, const float center[3], float radius, const float radiance[3],
                                     float* light, prt_message* message);
 /* Writes to `light` [order*order][3] the light at the origin of a disc that emits radiance `radiance` on the
- * side to which `normal` points. From behind and edge-on the light is black. `center` and `radius` are in one
- * unit, such as metres. If `radius` is not positive, returns PRT_BAD_ARGUMENT. */
+ * side to which `normal` points. From behind and edge-on the light is black. `normal` has any length except
+ * 0. `center` and `radius` are in one unit, such as metres. If `radius` is not positive, returns
+ * PRT_BAD_ARGUMENT. */
 PRT_API prt_status prt_light_disc(int order, const float center[3], const float normal[3], float radius,
                                   const float radiance[3], float* light, prt_message* message);
 /* Writes to `light` [order*order][3] the light whose radiance is `top` from direction `up` and `bottom` from
@@ -95,13 +98,13 @@ typedef struct prt_image {
     const float* pixels; /* [height][width][3] radiance, linear Rec. 709, rows from the top */
 } prt_image;
 /* Projects a lat-long image into SH and writes the result to `light` [order*order][3]. `center` is a
- * prt_center. `threads`: number of threads, 0: all of the machine. For pixels that are negative or not finite
- * returns PRT_BAD_ARGUMENT. */
+ * prt_center. `threads`: number of threads, 0: all of the machine. For pixels that are negative or not
+ * finite, and for coefficients above 1e18, returns PRT_BAD_ARGUMENT. */
 PRT_API prt_status prt_light_from_lat_long(int order, const prt_image* image, int center, int threads,
                                            float* light, prt_message* message);
 /* Loads an environment map (OpenEXR, Radiance HDR; PNG and JPEG clip bright lights), projects it into SH and
  * writes the result to `light` [order*order][3]. `center` is a prt_center, used for lat-long images only. For
- * pixels that are negative or not finite returns PRT_BAD_FILE. */
+ * pixels that are negative or not finite, and for coefficients above 1e18, returns PRT_BAD_FILE. */
 PRT_API prt_status prt_light_from_file(int order, const char* path, int center, float* light,
                                        prt_message* message);
 /* A sun: a distant disc of uniform radiance. */
@@ -115,7 +118,7 @@ typedef struct prt_sun {
  * the suns, to `sky` [order*order][3], and its suns to `suns`. *count: on entry the number of elements that
  * `suns` can hold, on return the number of suns in the file. If `suns` cannot hold all suns, returns
  * PRT_TOO_SMALL and writes only *count. `suns` may be null: it then holds 0. If the file has fewer than
- * `order` bands, returns PRT_BAD_FILE. */
+ * `order` bands, returns PRT_BAD_FILE and writes nothing. */
 PRT_API prt_status prt_light_from_light_file(int order, const char* path, float* sky, prt_sun* suns,
                                              size_t* count, prt_message* message);
 /* Writes to `light` [order*order][3] the sum of the light of `suns` [count]. The result is the argument
@@ -127,8 +130,10 @@ PRT_API prt_status prt_light_suns(int order, const prt_sun* suns, size_t count, 
  * light by the inverse of the model's rotation. */
 PRT_API prt_status prt_light_rotate(int order, const float rotation[9], float* light, prt_message* message);
 /* Removes ringing (negative radiance near bright lights) from `light` [order*order][3] in place: scales its
- * bands by the weakest filter that makes the radiance non-negative in every direction. Intended for lights
- * from images. Call it once per light, before prt_light_rotate. */
+ * bands by the weakest filter that makes the radiance non-negative in every direction. A channel whose mean
+ * radiance is not positive, or is tiny relative to its other coefficients, may remain negative. If the
+ * magnitude of a coefficient exceeds 1e37, returns PRT_BAD_ARGUMENT. Intended for lights from images. Call it
+ * once per light, before prt_light_rotate. */
 PRT_API prt_status prt_light_dering(int order, float* light, prt_message* message);
 
 /* Handle of a model with compressed transfer, in a file that `prt compress` has written. */
@@ -165,7 +170,8 @@ typedef struct prt_model_info {
                                    PRT_FLOAT32, prt_words_* if PRT_PACKED */
     const uint16_t* cluster_of; /* [receivers] index of the cluster: vertex attribute prt_cluster; packed
                                    weights contain it already */
-    const uint32_t* cluster_table; /* [clusters][4]: the buffer or texture prt_clusters */
+    const uint32_t* cluster_table; /* [clusters][4]: the buffer or texture prt_clusters, which the shader
+                                      lacks if all clusters have the same layout */
     size_t meshes;                 /* number of meshes, see prt_mesh */
     int has_direct_term;           /* 1 if the constants can exclude the direct light of suns, else 0; see
                                       prt_model_update_constants_separate */
@@ -214,9 +220,9 @@ PRT_API prt_status prt_model_get_mesh(const prt_model* model, size_t mesh, prt_m
 
 /* Computes the constants of all clusters under `light` [order*order][3], which includes all suns, with all
  * lamps at strength 1. Writes them to `constants` [prt_model_info.rows][4], (r, g, b, 0) each. `order` must
- * be at least prt_model_info.order; further bands are ignored. Allocates nothing. If the magnitude of a
- * coefficient exceeds 1e20, or that of a constant 1e30, returns PRT_BAD_ARGUMENT; `constants` may then have
- * changed. */
+ * be at least prt_model_info.order and at most 10; further bands are ignored. Allocates nothing. If the
+ * magnitude of a coefficient exceeds 1e20, or that of a constant 1e30, returns PRT_BAD_ARGUMENT; `constants`
+ * may then have changed. */
 PRT_API prt_status prt_model_update_constants(const prt_model* model, int order, const float* light,
                                               float* constants, prt_message* message);
 /* Computes the constants of all clusters for a sky, separate suns and strengths of lamps, like
@@ -246,11 +252,11 @@ typedef enum prt_constants {
 /* Writes the source of the vertex shader of a model, with a final 0, to `source`. `language` is a
  * prt_language, `constants` a prt_constants. *size: on entry the size of `source` in bytes; on return the
  * required size, including the final 0. If `source` is null or smaller, returns PRT_TOO_SMALL and writes only
- * *size. If the language does not support this storage, returns PRT_BAD_ARGUMENT. Inputs of the shader: at
- * location 0 `position`, which is prt_mesh.positions unchanged (the uniform view_projection includes the
- * transform of the model); at location 15 `normal`, which is prt_mesh.normals, if prt_vertex_inputs.normals
- * is 1; from location 4 on the weights, prt_words_* if packed, else prt_weights_*, and then prt_cluster at
- * location 3. */
+ * *size. If the language does not support this storage, or the weights of the model do not fit into vertex
+ * attributes, returns PRT_BAD_ARGUMENT. Inputs of the shader: at location 0 `position`, which is
+ * prt_mesh.positions unchanged (the uniform view_projection includes the transform of the model); at location
+ * 15 `normal`, which is prt_mesh.normals, if prt_vertex_inputs.normals is 1; from location 4 on the weights,
+ * prt_words_* if packed, else prt_weights_*, and then prt_cluster at location 3. */
 PRT_API prt_status prt_model_shader(const prt_model* model, int language, int constants, char* source,
                                     size_t* size, prt_message* message);
 
@@ -273,21 +279,22 @@ PRT_API prt_status prt_instances_get_info(const prt_model* model, prt_instances_
                                           prt_message* message);
 /* Writes the range of instances that draw mesh `mesh`: instances *first .. *first + *count - 1. *count is 0
  * if the mesh has no instances and is drawn once, with the constants of the model; in a model without
- * instances it is always 0. */
+ * instances it is always 0. For an index out of range in a model with instances returns PRT_BAD_ARGUMENT. */
 PRT_API prt_status prt_instances_of_mesh(const prt_model* model, size_t mesh, size_t* first, size_t* count,
                                          prt_message* message);
 /* Computes the constants of all instances and writes them to `constants` [prt_instances_info.constants][4].
  * The shader of prt_instances_shader reads these instead of the constants of the model. `order`, `sky`,
- * `suns` and the limits are those of prt_model_update_constants_separate; `suns` may be null. `threads`:
- * number of threads, 0: all of the machine. For a model without instances returns PRT_BAD_ARGUMENT. */
+ * `suns` and the limits are those of prt_model_update_constants_separate; `suns` may be null. Models with
+ * instances have no lamps. `threads`: number of threads, 0: all of the machine. For a model without instances
+ * returns PRT_BAD_ARGUMENT. */
 PRT_API prt_status prt_instances_update_constants(const prt_model* model, int order, const float* sky,
                                                   const float* suns, int threads, float* constants,
                                                   prt_message* message);
 /* Writes the source of the vertex shader for instances, with a final 0, to `source`. The shader has the
  * inputs of prt_model_shader, and per instance the rows of prt_instances_info.worlds at locations 10 to 12
  * and those of prt_instances_info.tables at locations 13 and 14. `language`, `constants`, `source` and *size
- * are used as in prt_model_shader; PRT_CONSTANTS_IN_BLOCK is not supported. For a model without instances
- * returns PRT_BAD_ARGUMENT. */
+ * are used as in prt_model_shader. Returns PRT_BAD_ARGUMENT for PRT_CONSTANTS_IN_BLOCK, for a model without
+ * instances, and for one with more than 24 float weights per vertex. */
 PRT_API prt_status prt_instances_shader(const prt_model* model, int language, int constants, char* source,
                                         size_t* size, prt_message* message);
 
@@ -353,15 +360,17 @@ typedef struct prt_lighting {
  * PRT_BAD_ARGUMENT; `constants` may then have changed. */
 PRT_API prt_status prt_volume_update_constants(const prt_volume* volume, const prt_lighting* lighting,
                                                float* constants, prt_message* message);
-/* Computes the texels of the light texture for probes `first` to `last` - 1, at most prt_volume_info.probes,
- * and writes them at their positions in `texels`, which holds the whole texture
- * [prt_volume_textures.light_bytes]; other texels do not change. `constants` is the result of
- * prt_volume_update_constants. Several threads may process different probes at once. Allocates nothing. */
+/* Computes the texels of the light texture for probes `first` to `last` - 1, and writes them at their
+ * positions in `texels`, which holds the whole texture [prt_volume_textures.light_bytes]; other texels do not
+ * change. `constants` is the result of prt_volume_update_constants. Several threads may process different
+ * probes at once. Allocates nothing. If `first` exceeds `last`, `last` exceeds prt_volume_info.probes, or the
+ * magnitude of a constant exceeds 1e30, returns PRT_BAD_ARGUMENT. */
 PRT_API prt_status prt_volume_update_light(const prt_volume* volume, const float* constants, size_t first,
                                            size_t last, void* texels, prt_message* message);
 /* Computes the incident light at all probes and writes it to `incident` [probes][n*n][3], n =
  * prt_volume_info.incident_order, for lookups on the CPU. `constants` is the result of
- * prt_volume_update_constants. Uses all threads of the machine. */
+ * prt_volume_update_constants. If the magnitude of a constant exceeds 1e30, returns PRT_BAD_ARGUMENT. Uses
+ * all threads of the machine. */
 PRT_API prt_status prt_volume_evaluate(const prt_volume* volume, const float* constants, float* incident,
                                        prt_message* message);
 
@@ -371,14 +380,18 @@ typedef struct prt_volume_position {
     float position[3], normal[3];
 } prt_volume_position;
 /* Interpolates the incident light at `position` and writes its coefficients to `light` [n*n][3], n =
- * prt_volume_info.incident_order. `incident` is the result of prt_volume_evaluate. Excludes probes behind
- * surfaces. A position outside the volume is moved to its boundary. Allocates nothing. */
+ * prt_volume_info.incident_order. `incident` is the result of prt_volume_evaluate. Probes that a surface
+ * hides from the position have almost no weight. With a normal the lookup uses a point in front of the
+ * surface, a quarter of a cell along the normal. A position outside the volume is moved to its boundary. If
+ * the light of a probe that is used exceeds 1e30 in magnitude, returns PRT_BAD_ARGUMENT. Allocates
+ * nothing. */
 PRT_API prt_status prt_volume_incident(const prt_volume* volume, const float* incident,
                                        const prt_volume_position* position, float* light,
                                        prt_message* message);
 /* Computes the irradiance of a surface at `position`, divided by pi; times the albedo, this is the exit
- * radiance. position->normal must have length 1, else returns PRT_BAD_ARGUMENT. `incident` is the result of
- * prt_volume_evaluate. Allocates nothing. */
+ * radiance. Negative channels become 0. position->normal must have length 1 within 1 %, else returns
+ * PRT_BAD_ARGUMENT. The lookup at `position`, `incident` and its limit are those of prt_volume_incident.
+ * Allocates nothing. */
 PRT_API prt_status prt_volume_irradiance(const prt_volume* volume, const float* incident,
                                          const prt_volume_position* position, float irradiance[3],
                                          prt_message* message);

@@ -40,17 +40,19 @@ struct SunSplit {
     double error_without = 0, error_with = 0;
 };
 
-/// Finds suns in the pixels of `environment`: spots that are brighter than their surroundings and too narrow
-/// for `order` bands, with a half angle of at most `widest_sun(order)`. Reduces the texels of a sun to the
-/// radiance of the surrounding sky in `SunSplit::remainder`; the difference becomes the light of the sun. In
-/// band 0, suns and remainder therefore sum to the original. The size of a sun of about three texels or more
-/// is accurate to a fraction of a texel; a smaller sun gets the solid angle of its bright texels. Throws
-/// `Error` for an order outside 1..kMaxOrder, a negative count, an invalid image, pixels that are negative or
-/// not finite, and light above kMaxLight.
+/// Finds suns in the pixels of `environment`: roughly round spots that are brighter than their surroundings
+/// and too narrow for `order` bands, with an angular radius at half of their brightness of at most
+/// `widest_sun(order)`. Reduces the texels of a sun to the radiance of the surrounding sky in
+/// `SunSplit::remainder`; the difference becomes the light of the sun. In band 0, suns and remainder
+/// therefore sum to the original. The size of a sun of about three texels or more is accurate to a fraction
+/// of a texel; a smaller sun gets the solid angle of its bright texels. Throws `Error` for an order outside
+/// 1..kMaxOrder, a negative count, an invalid image, pixels that are negative or not finite, and SH
+/// coefficients of the image above kMaxLight.
 SunSplit find_suns(const Environment& environment, const SunOptions& options = {});
 
-/// Returns the maximum half angle of a sun that `find_suns` returns, in radians: pi / (4 order), but at most
-/// 0.26. Throws `Error` for an order outside 1..kMaxOrder.
+/// Returns the maximum angular radius of a spot that `find_suns` accepts as a sun, in radians: pi / (4
+/// order), but at most 0.26. The radius is measured at half of the spot's brightness; the fitted
+/// Sun::half_angle can be larger. Throws `Error` for an order outside 1..kMaxOrder.
 double widest_sun(int order);
 
 } // namespace prt

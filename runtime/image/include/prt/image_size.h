@@ -13,7 +13,8 @@ struct ImageSize {
 };
 
 /// Returns the size that the header of a file in memory specifies: PNG, JPEG, WebP, AVIF or Radiance HDR.
-/// Throws `Error` for other formats, OpenEXR included, and for a damaged header. The pixels may still be
+/// Throws `Error` for other formats, OpenEXR included, for a damaged header, and for WebP and AVIF files that
+/// `decode_image` (prt/image_file.h) rejects as animated WebP or as too large. The pixels may still be
 /// damaged.
 ImageSize image_size(std::span<const std::byte> file);
 
