@@ -66,8 +66,8 @@ public:
     /// them to `constants` [size()]: instance by instance, row by row, then red, green, blue. The color of a
     /// row at the relative position u in the box is dot(vector, (u, 1)) for each of the three vectors. Throws
     /// `Error` if `lighting.lamps` is not empty, or if sky or suns have fewer bands than the transfer. Throws
-    /// the errors of `rotated_into` for instances whose rotation is not about +Y. Uses `threads` threads; 0:
-    /// all hardware threads.
+    /// the errors of `rotated_into` for instances whose rotation the constructor does not round. Uses
+    /// `threads` threads; 0: all hardware threads.
     void update(const Lighting& lighting, std::span<glm::vec4> constants, int threads = 0) const;
 
 private:
