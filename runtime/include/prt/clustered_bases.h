@@ -28,7 +28,7 @@ const char* to_string(PredictorKind kind);
 struct Predictor {
     PredictorKind kind = PredictorKind::normal; ///< attribute that has the coordinates
     glm::vec3 origin{0}; ///< normal: 0; position: a point in metres, relative to Scene::origin
-    glm::vec3 scale{1};  ///< factor of each coordinate; position: per metre
+    glm::vec3 scale{1};  ///< factor of each coordinate, not 0; position: per metre
 
     bool operator==(const Predictor&) const = default;
 };
@@ -63,12 +63,14 @@ struct CodedBases {
 /// Returns the size of `code` in bytes: that of `RowCode::drops` plus that of `RowCode::bits`.
 std::size_t coded_bytes(const RowCode& code);
 
-/// Returns the size of all members of `coded` in bytes.
+/// Returns the size of all members of `coded` in bytes: four for each float, one for each entry of
+/// `StepExponents::axes`, and the `coded_bytes` of each code.
 std::size_t coded_bytes(const CodedBases& coded);
 
 /// Decodes the rows of `coded`, in the order of `ClusteredBases::rows`: [rows][dimension]. Cluster k has one
 /// mean, `predictor_rows` predictor rows and `components[k]` basis directions; `components` is [clusters].
-/// Throws `Error` if a code ends too early or has the wrong number of columns.
+/// Throws `Error` if a code ends too early, or if the lengths of the members of `coded` do not match: the
+/// numbers of columns of the codes, the length of `units`, or the sum of `StepExponents::axes`.
 std::vector<float> decode_bases(const CodedBases& coded, const std::vector<int>& components,
                                 std::size_t predictor_rows = 0);
 
@@ -83,7 +85,8 @@ struct ClusteredBases {
     /// [number of rows][dimension()]. For each cluster k in turn: the mean, three rows per predictor, then
     /// m_k basis directions.
     std::vector<float> rows;
-    /// [clusters][predictor_rows()] center_i of each cluster: predictor offset at which the mean applies.
+    /// [clusters][predictor_rows()] center_i of each cluster: the scaled predictor coordinates scale_i x_i at
+    /// which the mean applies, rounded to integers.
     std::vector<std::int32_t> centers;
     /// [sum of m_k] number of bits of each weight, 1..16, cluster after cluster. Empty if weights are
     /// float32.

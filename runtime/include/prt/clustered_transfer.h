@@ -7,9 +7,10 @@
 //     relighter.update(light, constants);                       // M_k·L and B_kj·L: prt/cluster_lighting.h
 // Then per receiver, in a vertex shader (shaders/prt_exit_radiance.glsl) or on the CPU:
 //     R = C[first_k] + sum_i x_i C[first_k + 1 + i] + sum_j w_j C[first_k + 1 + g + j]
-// This is docs/math.md, eq. 29, with k the cluster of the receiver, m_k its number of basis
-// directions, C the constants, w the m_k weights, and x the g predictor coordinates relative to their origin.
-// Stable.
+// This is docs/math.md, eq. 29, with k the cluster of the receiver, m_k its number of basis directions,
+// first_k the row of its mean, C the constants, and x the g predictor coordinates relative to their origin. w
+// are the m_k weights; packed weights are used as the stored integers, because the constants contain their
+// scale. Stable.
 
 #include "prt/clustered_bases.h"
 #include "prt/light.h"
@@ -102,21 +103,22 @@ std::size_t bits_per_receiver(const ClusteredTransfer& transfer);
 std::size_t constant_rows(const ClusteredBases& bases);
 
 /// Computes the exit radiance of every receiver for albedo 1 on the CPU, as the vertex shader does, and
-/// writes it to `radiance` [receivers]. `constants` is the result of `ClusterLighting::update`. Transfer with
-/// several outputs must have packed weights and no predictors; `radiance` is then [receivers][outputs]. Uses
-/// `threads` threads; 0: all hardware threads.
+/// writes it to `radiance` [receivers]. `constants` is the result of `ClusterLighting::update`. For transfer
+/// with several outputs, writes the SH coefficients of incident light to `radiance` [receivers][outputs];
+/// this transfer must have packed weights and no predictors. Uses `threads` threads; 0: all hardware threads.
 void evaluate(const ClusteredTransfer& transfer, std::span<const glm::vec4> constants,
               std::span<glm::vec3> radiance, int threads = 0);
 
 /// Returns the exit radiance of every receiver for albedo 1 under `lighting`, [receivers]. `transfer` must
-/// have one output. Throws `Error` if the lighting has fewer bands than the transfer, or if
-/// `lighting.lamps` is not empty and its length differs from the number of lamps of the transfer. Uses
-/// `threads` threads; 0: all hardware threads.
+/// have one output. Throws `Error` if the layout of the transfer is invalid (`check_layout`), if the sky or
+/// the suns have fewer bands than the transfer, or if `lighting.lamps` is not empty and its length differs
+/// from the number of lamps of the transfer. Uses `threads` threads; 0: all hardware threads.
 std::vector<glm::vec3> exit_radiance(const ClusteredTransfer& transfer, const Lighting& lighting,
                                      int threads = 0);
 /// Returns the exit radiance of every receiver for albedo 1, [receivers], under the sky `light`, without
-/// separate suns and with all lamps at strength 1. `transfer` must have one output. Throws `Error` if
-/// `light` has fewer bands than the transfer. Uses `threads` threads; 0: all hardware threads.
+/// separate suns and with all lamps at strength 1. `transfer` must have one output. Throws `Error` if the
+/// layout of the transfer is invalid (`check_layout`), or if `light` has fewer bands than the transfer. Uses
+/// `threads` threads; 0: all hardware threads.
 std::vector<glm::vec3> exit_radiance(const ClusteredTransfer& transfer, const Light& light, int threads = 0);
 
 /// Returns the decompressed transfer vectors of all receivers, in the layout of `transfer.bases`. The vectors

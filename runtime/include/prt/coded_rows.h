@@ -28,7 +28,8 @@ inline constexpr int kMaxRowBits = 15;
 RowCode encode_rows(std::span<const std::int32_t> values, std::size_t columns);
 
 /// Returns the values of a code of `rows` rows, [rows][code.drops.size()]. Throws `Error` if `code.bits` is
-/// too short for that number of rows.
+/// too short for that number of rows. Does not detect other damage: the values of a damaged code can exceed
+/// the width of their column.
 std::vector<std::int32_t> decode_rows(const RowCode& code, std::size_t rows);
 
 } // namespace prt

@@ -29,8 +29,9 @@ using EarlierNeighbors = std::array<std::uint32_t, 3>;
 
 /// Returns the predicting receivers of each vertex, [receivers]. The entry of vertex v contains the first
 /// three distinct vertices that share a triangle with v, have a smaller index than v, and are in the same
-/// block of 16384 consecutive receivers as v. "First" is the order of `triangles` [triangles][3], within a
-/// triangle the order of indices. Throws `Error` if a triangle has an index that is not below `receivers`.
+/// block of 16384 consecutive receivers as v. "First" is the order of `triangles` [triangles][3]; within a
+/// triangle the smallest index is first, in any rotation of its indices. Throws `Error` if a triangle has an
+/// index that is not below `receivers`.
 std::vector<EarlierNeighbors> earlier_neighbors(std::span<const std::uint32_t> triangles,
                                                 std::size_t receivers);
 
@@ -40,8 +41,8 @@ struct WordCode {
     /// (docs/format.md). A context is a class of symbols with equal predictability, such as weights with one
     /// known neighbour.
     RowCode frequencies;
-    /// Coded blocks of 16384 receivers, the last one of fewer. The array starts with the lengths of all
-    /// blocks in bytes, as little-endian 32-bit integers; all blocks follow.
+    /// Coded blocks of 16384 receivers; the last block can have fewer. The array starts with the lengths of
+    /// all blocks in bytes, as little-endian 32-bit integers; all blocks follow.
     std::vector<std::byte> bits;
 };
 
@@ -55,9 +56,11 @@ WordCode encode_words(const WordLayout& layout, std::span<const EarlierNeighbors
                       std::span<const std::uint32_t> words);
 
 /// Returns the words that were coded, [receivers][layout.words], without loss. `layout` and `neighbors`
-/// [receivers] must equal those passed to `encode_words`. Throws `Error` if the code is damaged. The
-/// caller must limit neighbors.size(), the number of receivers: a few bytes can encode any number of equal
-/// receivers. Decodes blocks of 16384 receivers on `threads` threads; 0: all hardware threads.
+/// [receivers] must equal those passed to `encode_words`. Throws `Error` if it detects that the code is
+/// damaged; some damage only changes the words. Every cluster index in the result is below
+/// layout.clusters.size(). The caller must limit neighbors.size(), the number of receivers: a few bytes can
+/// encode any number of equal receivers. Decodes blocks of 16384 receivers on `threads` threads; 0: all
+/// hardware threads.
 std::vector<std::uint32_t> decode_words(const WordCode& code, const WordLayout& layout,
                                         std::span<const EarlierNeighbors> neighbors, int threads = 0);
 

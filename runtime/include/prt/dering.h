@@ -20,18 +20,20 @@ namespace prt {
 using BandFactors = std::array<double, kMaxOrder>;
 
 /// Returns the factors, 0..1, that make the radiance of `light` non-negative in every direction and channel
-/// and change the exit radiance of receivers least (docs/math.md, eq. 17). Throws `Error` if a coefficient is
-/// not finite or exceeds 1e37 in magnitude.
+/// and change the exit radiance of receivers least (docs/math.md, eq. 17). `light` must have at least one
+/// band. Throws `Error` if a coefficient is not finite or exceeds 1e37 in magnitude.
 ///
 /// The factor of band 0 is 1, so that the mean radiance does not change. All channels share the factors, so
-/// that no hue shifts. All factors are 1 if no radiance is negative. A channel is ignored if its band 0
-/// coefficient is not positive, or is less than a millionth of the channel's largest coefficient: such a
-/// channel may remain negative. The factors do not depend on the rotation of the light: dering once, then
-/// rotate. At order 6 a call takes 0.3 to 0.9 ms on an idle core.
+/// that no hue shifts. All factors are 1 if no radiance is below 1 % of the mean of its channel. If the
+/// smallest radiance is between 0 and this limit, factors can be up to 1 % below 1. A channel is ignored if
+/// its band 0 coefficient is not positive, or is less than a millionth of the channel's largest coefficient:
+/// an ignored channel may remain negative. Except for this tolerance of about 1 %, the factors do not depend
+/// on the rotation of the light: dering once, then rotate. At order 6 a call takes 0.3 to 0.9 ms on an idle
+/// core.
 BandFactors dering_factors(const Light& light);
 
 /// Returns `light` with each band multiplied by its factor of `dering_factors`; equals `windowed(light,
-/// Window::automatic)`. Throws the errors of `dering_factors`.
+/// Window::automatic)`. `light` must have at least one band. Throws the errors of `dering_factors`.
 Light deringed(const Light& light);
 
 /// Returns `light` with all coefficients of band l multiplied by factors[l]. Throws `Error` if a resulting

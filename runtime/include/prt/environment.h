@@ -88,7 +88,7 @@ glm::dvec2 lat_long_position(int width, int height, const glm::dvec3& direction)
 
 /// Returns the unit direction at the position (u, v) of face 0..5 (+X -X +Y -Y +Z -Z) in the layout
 /// `EnvironmentLayout::cube`. u grows to the right and v downwards in the image; the face is [-1, 1]². Texel
-/// i of n along an axis is centered at 2 i / (n - 1) - 1.
+/// i of n > 1 along an axis is centered at 2 i / (n - 1) - 1; a single texel covers the face.
 glm::dvec3 cube_direction(int face, double u, double v);
 
 /// Returns the unit direction at the position (u, v) of face 0..5 (+X -X +Y -Y +Z -Z) in the layout
@@ -101,8 +101,9 @@ glm::dvec3 cube_face_direction(int face, double u, double v);
 glm::dvec3 angular_direction(double u, double v);
 
 /// Returns the radiance from unit direction `direction`, by bilinear filtering. Filters of cube maps do not
-/// cross the edges of faces. The environment must pass `check_environment`. For a direction that is not
-/// finite the result is the radiance at an arbitrary position.
+/// cross the edges of faces. Filters of angular maps also read pixels outside the circle for directions close
+/// to +Z. The environment must pass `check_environment`. For a direction that is not finite the result is the
+/// radiance at an arbitrary position.
 glm::vec3 sample(const Environment& environment, const glm::vec3& direction);
 /// Returns the radiance from unit direction `direction`, by bilinear filtering, in a lat-long image with the
 /// center +Z (`LatLongCenter::z`). The image must have pixels. For a direction that is not finite the result

@@ -18,8 +18,9 @@ namespace prt {
 /// Returns the relative L2 error of transfer vectors, weighted by the areas a_p: sqrt( sum_p a_p |T_p -
 /// T'_p|² / sum_p a_p |T_p|² ). Returns 0 if both sums are 0, infinity if only the second sum is 0. If one
 /// transfer has color, a grey term of either counts as three equal channels. Transfers with different terms
-/// of distant light are compared after `as_combined` of prt/transfer.h. Throws `Error` if the number of
-/// receivers, the orders or the lamps differ, and for transfer or areas that are not finite.
+/// of distant light are compared after `as_combined` of prt/transfer.h. Both transfers must have one output.
+/// Throws `Error` if the number of receivers, the orders or the lamps (names and sequence) differ, if only
+/// one transfer has terms of distant light, and for transfer or areas that are not finite.
 double relative_l2(const TransferView& reference, const TransferView& approximation,
                    std::span<const float> areas);
 
@@ -104,8 +105,9 @@ struct LitError {
                      ///< that of the reference
     double mean = 0; ///< mean of the reference R over area and channels, in its unit, for any `LitScale`
     double max = 0;  ///< largest |R - R'| of a channel at a receiver with positive area, divided by M
-    /// 99.9 % of the receivers with positive area, not weighted by area, have an error of at most this
-    /// number. The error of a receiver is the largest |R - R'| of its channels, divided by M.
+    /// The error of a receiver is the largest |R - R'| of its channels, divided by M. This is number
+    /// floor(0.999 (n - 1)) of the errors of the n receivers with positive area, counted from 0 in ascending
+    /// order and not weighted by area: about 99.9 % of them are not larger. 0 if n is 0.
     double percentile_999 = 0;
     /// `lit_rms` over the half of the area with the smallest sum of R over the channels; relative to R of
     /// that half for any `LitScale`.
@@ -134,9 +136,10 @@ LitScale lit_scale(std::span<const glm::vec3> reference, std::span<const float> 
 /// Returns errors of exit radiance `approximation` against `reference`, both [receivers]. `edges` contains
 /// indices of receivers; if it is empty, all jumps are 0. `clusters` [receivers], the cluster of each
 /// receiver, separates the edges between clusters from those within clusters; without a value `crossing`,
-/// `inner` and `seams` are 0. Errors are relative to `scale`; without a value, to `lit_scale(reference,
-/// areas)`. Pass `scale` if the lighting is one of many and may leave almost all receivers dark. Throws
-/// `Error` for radiance or areas that are not finite.
+/// `inner` and `visible.seams` are 0. Errors are relative to `scale`; without a value, to
+/// `lit_scale(reference, areas)`. Pass `scale` if the lighting is one of many and may leave almost all
+/// receivers dark. Throws `Error` for numbers in `reference`, `approximation` or `areas` that are not finite;
+/// does not check `scale`.
 LitError lit_error(std::span<const glm::vec3> reference, std::span<const glm::vec3> approximation,
                    std::span<const float> areas, std::span<const Edge> edges,
                    std::optional<std::span<const std::uint16_t>> clusters,

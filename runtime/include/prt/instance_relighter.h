@@ -44,9 +44,10 @@ class InstanceRelighter {
 public:
     /// Copies the required data; keeps no references. `transfer` contains all meshes of the instances. For an
     /// instance that is rotated only about +Y, the lighting is rotated by the nearest multiple of 360 / yaws
-    /// degrees: at most `yaws` rotated lightings are needed. For all other instances, and for all instances
-    /// if `yaws` is 0, the lighting is rotated exactly. Throws `Error` if `transfer` has lamps or several
-    /// outputs, or if the constants exceed 4 GB.
+    /// degrees: all these instances together need at most `yaws` rotated lightings. For all other instances,
+    /// and for all instances if `yaws` is 0, the error of the rotation is at most 0.01 degrees
+    /// (`instance_rotations`). Throws `Error` if the layout of `transfer` is invalid (`check_layout`), if
+    /// `transfer` has lamps or several outputs, or if the constants exceed 4 GB.
     InstanceRelighter(const ClusteredTransfer& transfer, std::span<const RelitInstance> instances,
                       int yaws = 64);
 
@@ -56,16 +57,17 @@ public:
     /// rotation of its lighting, in degrees.
     double max_degrees() const { return rotations_.max_degrees; }
     /// Returns two vectors per instance, [instances][2], for the attributes of the shader. xyz of the first
-    /// is the center of the mesh's box, xyz of the second 1 / half of its size along each axis. The w
+    /// is the center of the mesh's box, xyz of the second 1 / `InstanceBox::half` along each axis. The w
     /// components are integers in floats, 0..65535: the low 16 bits (first) and the high 16 bits (second) of
     /// a 32-bit offset. The red vector of row r of the model is at index 3 ((r + offset) mod 2^32) of the
     /// constants; green and blue follow.
     std::vector<glm::vec4> table() const;
     /// Computes the constants of all instances for `lighting`, which is in the frame of the world, and writes
     /// them to `constants` [size()]: instance by instance, row by row, then red, green, blue. The color of a
-    /// row at the relative position u in the box is dot(vector, (u, 1)). Throws `Error` if `lighting.lamps`
-    /// is not empty, or if sky or suns have fewer bands than the transfer. Uses `threads` threads; 0: all
-    /// hardware threads.
+    /// row at the relative position u in the box is dot(vector, (u, 1)) for each of the three vectors. Throws
+    /// `Error` if `lighting.lamps` is not empty, or if sky or suns have fewer bands than the transfer. Throws
+    /// the errors of `rotated_into` for instances whose rotation the constructor does not round. Uses
+    /// `threads` threads; 0: all hardware threads.
     void update(const Lighting& lighting, std::span<glm::vec4> constants, int threads = 0) const;
 
 private:

@@ -78,9 +78,9 @@ struct CodedFactors {
     std::array<float, kInstanceNumbers> scales{}; ///< step of each number, not negative
     std::vector<std::int8_t> bytes;               ///< [instances][kInstanceNumbers] -127..127
 };
-/// Returns the coded factors of all instances, with scales[j] the largest difference of number j from
-/// `open_factors`, divided by 127. Rounds each number to the nearest step. Throws `Error` for numbers that
-/// are not finite or exceed kMaxInstanceFactor in magnitude.
+/// Returns the coded factors of all instances, with scales[j] the largest magnitude of the difference of
+/// number j from `open_factors`, divided by 127. Rounds each number to the nearest step. Throws `Error` for
+/// numbers that are not finite or exceed kMaxInstanceFactor in magnitude.
 CodedFactors coded(std::span<const InstanceFactors> factors);
 /// Returns the factors of all instances, [instances], as rounded by `coded`.
 std::vector<InstanceFactors> decoded(const CodedFactors& coded);
@@ -137,8 +137,8 @@ class SharedTransfer {
 public:
     /// Computes the transfer vectors; keeps no reference to `transfer`. `transfer` contains the receivers of
     /// the mesh alone, without surroundings. `up` is the unit vector away from the ground. Both are in the
-    /// frame of the mesh. Throws `Error` if `transfer` has lamps or several outputs. Uses `threads` threads;
-    /// 0: all hardware threads.
+    /// frame of the mesh. `transfer` must have at least one term. Throws `Error` if its order is not in
+    /// 1..kMaxOrder, or if it has lamps or several outputs. Uses `threads` threads; 0: all hardware threads.
     SharedTransfer(const Transfer& transfer, const glm::dvec3& up, int threads = 0);
 
     /// Returns the layout of the transfer passed to the constructor.
@@ -146,14 +146,14 @@ public:
     /// Returns the number of receivers of the mesh.
     std::size_t receivers() const { return responses_.size(); }
     /// Returns the transfer vector of `receiver` under passing mode `mode`, 0..kPassingModes - 1, for factor
-    /// 1: [layout().dimension()], in the frame of the mesh. Its product with the scene's lighting is the exit
-    /// radiance under the lighting of the mode.
+    /// 1: [layout().dimension()], in the frame of the mesh. If the scene's lighting, rotated into this frame,
+    /// is applied to it, the result is the exit radiance for albedo 1 under the lighting of the mode.
     std::span<const float> passing(std::size_t receiver, std::size_t mode) const {
         const std::size_t dimension = layout_.dimension();
         return std::span(passing_).subspan((receiver * kPassingModes + mode) * dimension, dimension);
     }
     /// Returns the exit radiance of `receiver` for albedo 1 under the radiance √(4π)·Y_i of each added mode
-    /// i, summed over all terms of the transfer.
+    /// i, without the factor for the radiance of the ground, summed over all terms of the transfer.
     const std::array<glm::vec3, kAddedModes>& responses(std::size_t receiver) const {
         return responses_[receiver];
     }
@@ -205,8 +205,9 @@ struct InstanceRotations {
 };
 /// Groups `rotations` [instances], which map the mesh's frame to the world's. If `bins` is greater than 0,
 /// rotations about +Y are rounded to the nearest multiple of 360 / bins degrees. Every other rotation, and
-/// every rotation if `bins` is 0, is replaced by the first entry of the result that differs by at most
-/// `degrees` degrees. If no entry does, the rotation itself becomes an entry.
+/// every rotation if `bins` is 0 or less, is replaced by the first entry of the result that differs by at
+/// most `degrees` degrees. If no entry does, the rotation itself becomes an entry. Does not check that the
+/// matrices are rotations.
 InstanceRotations instance_rotations(std::span<const glm::dmat3> rotations, int bins, double degrees = 0.01);
 
 /// Returns `lightings`, the result of `InstanceModes::lightings` in the frame of the world, rotated into the

@@ -12,9 +12,10 @@
 
 namespace prt {
 
-/// Distant lighting as SH coefficients of its radiance. Functions that create or change a light return finite
-/// coefficients, or throw `Error`: for a color, direction or angle that is not finite, and for results that
-/// overflow a float. Functions that create a light also throw `Error` for an order outside 1..kMaxOrder.
+/// Distant lighting as SH coefficients of its radiance. Unless stated otherwise, functions that create or
+/// change a light return finite coefficients, or throw `Error`: for a color, direction or angle that is not
+/// finite, for a direction of length 0, and for results that overflow a float. Functions that create a light
+/// also throw `Error` for an order outside 1..kMaxOrder.
 struct Light {
     int order = 0;                       ///< number of bands, 1..kMaxOrder; 0: empty, no light
     std::vector<glm::vec3> coefficients; ///< [order²] of RGB
@@ -56,7 +57,8 @@ Light sphere_light(int order, const glm::vec3& center, double radius, const glm:
 /// The disc emits only to the side of its unit normal `normal`: the light is black if the origin is behind
 /// the disc or in its plane. `center` and `radius` have the same unit. Coefficients are exact to rounding,
 /// even close to the rim (docs/math.md, eq. 13). A call takes 0.1 to 1 ms. Throws `Error` if `radius` is not
-/// positive, if `normal` is 0, and for arguments that are not finite.
+/// positive, if `normal` is 0, and for arguments that are not finite; does not check `radiance` if the light
+/// is black for this position.
 Light disc_light(int order, const glm::vec3& center, const glm::vec3& normal, double radius,
                  const glm::vec3& radiance);
 
@@ -85,11 +87,12 @@ glm::vec3 radiance(const Light& light, const glm::vec3& direction);
 Light truncated(const Light& light, int order);
 
 /// Returns `light` rotated about +Y by `angle` radians, counter-clockwise seen from above. For example, pi/2
-/// moves light that arrives from +Z so that it arrives from +X.
+/// moves light that arrives from +Z so that it arrives from +X. Throws `Error` if `light` is empty (order 0).
 Light rotated_about_y(const Light& light, double angle);
 
 /// Returns `light` with each band multiplied by the factor that `window` defines for the order of the light.
-/// Throws the errors of `deringed` for `Window::automatic`.
+/// For `Window::automatic`, `light` must have at least one band; throws the errors of `deringed`. For
+/// `Window::none`, returns `light` without a check.
 Light windowed(const Light& light, Window window);
 
 } // namespace prt

@@ -48,13 +48,14 @@ struct LightmapLayout {
     friend bool operator==(const LightmapLayout&, const LightmapLayout&) = default;
 };
 
-/// Lightmaps as a bake produces them. A receiver is a texel that a chart touches, or an adjacent texel that
-/// bilinear filters read.
+/// Lightmaps as a bake produces them. A receiver is a texel that a chart touches, or one of its eight
+/// neighbours, which bilinear filters read.
 struct BakedLightmap {
     LightmapLayout layout;             ///< sizes of the maps, and map of each primitive
     std::vector<std::uint32_t> texels; ///< [receivers] texel number of each receiver, in ascending order
     /// [receivers] surface area in m² that the texel represents. Each piece of the surface is divided among
-    /// the four texels of its bilinear sample by their weights; the sum is the area of the surface.
+    /// the four texels of its bilinear sample by their weights; the sum is the area of the surface. An area
+    /// can be 0.
     std::vector<float> areas;
     /// Pairs of receivers that show the same surface point on both sides of a UV seam, in ascending order,
     /// without duplicates.
@@ -73,13 +74,14 @@ struct CompressedLightmap {
 struct SeamJump {
     /// Indices of receivers: the four texels of the sample on the first side, then those of the second side.
     std::array<std::uint32_t, 8> receivers;
-    /// Bilinear weight of each entry of `receivers`; negative on the second side. The sum is 0.
+    /// Bilinear weight of each entry of `receivers`; negative or 0 on the second side. The sum is 0.
     std::array<float, 8> weights;
 };
 
 /// Returns the pairs of receivers whose light must match, in ascending order, without duplicates: receivers
-/// of horizontally or vertically adjacent texels of a map, and the pairs of `seams`. `texels` [receivers]
-/// contains texel numbers in ascending order, `seams` indices of receivers.
+/// of horizontally or vertically adjacent texels of a map, also across its edges if the map repeats, and the
+/// pairs of `seams`. `texels` [receivers] contains texel numbers in ascending order, `seams` indices of
+/// receivers.
 std::vector<Edge> lightmap_edges(const LightmapLayout& layout, std::span<const std::uint32_t> texels,
                                  std::span<const Edge> seams);
 
@@ -91,7 +93,7 @@ std::vector<std::uint32_t> nearest_receivers(const LightmapSize& size, std::span
 
 /// The four texels of a bilinear sample. The sample is the sum of the weights times the values of the texels.
 struct BilinearTexels {
-    std::uint32_t texels[4]; ///< numbers within the map; a texel may occur twice, at the edge of a map
+    std::uint32_t texels[4]; ///< numbers within the map; at the edge of a map a texel can occur repeatedly
     double weights[4];       ///< weight of each texel, 0..1; the sum is 1
 };
 /// Returns the texels of the bilinear sample at (x, y), with x the coordinate u times the width and y the

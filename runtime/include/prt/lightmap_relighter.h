@@ -27,7 +27,8 @@ enum class LightmapFormat {
     rgb9e5,    ///< 4 bytes: three mantissas of nine bits with one exponent, maximum 65 408. GL_RGB9_E5,
                ///< VK_FORMAT_E5B9G9R9_UFLOAT_PACK32
     r11g11b10, ///< 4 bytes: floats with mantissas of six (red), six (green) and five (blue) bits, maximum
-               ///< 64 512. GL_R11F_G11F_B10F, VK_FORMAT_B10G11R11_UFLOAT_PACK32
+               ///< 65 024 (red, green) and 64 512 (blue). GL_R11F_G11F_B10F,
+               ///< VK_FORMAT_B10G11R11_UFLOAT_PACK32
     rgba16,    ///< 8 bytes: four half floats, alpha 1, maximum 65 504. GL_RGBA16F,
                ///< VK_FORMAT_R16G16B16A16_SFLOAT
 };
@@ -57,9 +58,9 @@ public:
 
     /// Writes the exit radiance for albedo 1 of map number `map` to `texels` [bytes(map)]: all mip levels,
     /// each at its offset `LightmapLevel::first`, row by row from v = 0. A texel of a level is the mean of 2
-    /// x 2 texels of the level before; the last row or column of an odd size above 1 is ignored. `constants`
-    /// is the result of `ClusterLighting::update` for the transfer of the lightmap. Uses `threads` threads;
-    /// 0: all hardware threads.
+    /// x 2 texels of the level before, or of 2 texels if that level has the width or height 1; the last row
+    /// or column of an odd size above 1 is ignored. `constants` is the result of `ClusterLighting::update`
+    /// for the transfer of the lightmap. Uses `threads` threads; 0: all hardware threads.
     void update(std::size_t map, std::span<const glm::vec4> constants, std::span<std::byte> texels,
                 int threads = 0) const;
 

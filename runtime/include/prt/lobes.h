@@ -75,14 +75,15 @@ struct LobeModel {
     void decode(std::size_t vertex, std::span<Lobe> to) const;
 };
 
-/// Throws `Error` unless `order`, `lobes` and the number of profiles are in the documented ranges, all gains
-/// are finite and at most kMaxGain in magnitude, and the profile of every word exists.
+/// Throws `Error` unless the order is in 2..kMaxLobeOrder, `lobes` is in 1..kMaxLobes, the number of profiles
+/// is in 1..kMaxProfiles, all gains are finite and at most kMaxGain in magnitude, and the profile of every
+/// word exists. An empty model is an error. Does not check the number of words.
 void check_lobes(const LobeModel& model);
 
 /// Returns the matrix that transforms the lobe axes of a vertex from its rest pose to its current pose, for
 /// `rotated_axis`. `matrix` is the linear part of the blended skin matrix of the vertex, not necessarily a
-/// rotation. Axes transform like normals, by the cofactors of `matrix`: in every pose, the axis of an
-/// unoccluded vertex is its normal.
+/// rotation. Axes transform like normals, by the cofactors of `matrix` (negated if its determinant is
+/// negative): in every pose, the axis of an unoccluded vertex is its normal.
 glm::mat3 axis_rotation(const glm::mat3& matrix);
 /// Returns the unit vector in the direction rotation · axis, with `rotation` the result of `axis_rotation`.
 /// Returns `axis` if the length of that product is 0 or not finite.
@@ -94,7 +95,7 @@ glm::vec3 rotated_axis(const glm::vec3& axis, const glm::mat3& rotation);
 glm::vec3 lobe_radiance(std::span<const Lobe> lobes, std::span<const glm::vec3> light, int light_order);
 
 /// Writes the sum of the lobes, a grey transfer vector in the frame of the axes, to `transfer` [order²].
-/// `order` is at most kMaxLobeOrder.
+/// `order` is in 1..kMaxLobeOrder; further bands of the lobes are ignored.
 void lobe_transfer(std::span<const Lobe> lobes, int order, std::span<float> transfer);
 
 } // namespace prt

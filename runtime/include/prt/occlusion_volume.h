@@ -41,7 +41,8 @@ struct BlockedCap {
 /// Returns the cap for two moments of the blocked directions. `blocked` is the blocked fraction of all
 /// directions, 0..1; 0 results in a cap that blocks nothing. `blocked_direction` is the mean of the blocked
 /// unit directions, divided by 1 - blocked: its length is 1 if the directions fill a cap, and less if they
-/// are scattered. A length of 0 results in the whole sphere with density `blocked`.
+/// are scattered. A length of 0 results in the whole sphere with density `blocked`; a length above 1 counts
+/// as 1.
 BlockedCap cap_of(float blocked, const glm::vec3& blocked_direction);
 
 /// Returns the fraction, 0..1, by which the cap reduces the irradiance from uniform light on a receiver with
@@ -75,15 +76,15 @@ void check_occlusion_volume(const OcclusionVolume& volume);
 
 /// An occluder at its position in the world, in the layout of shaders (PrtOccluders of
 /// shaders/prt_occluders.glsl). "Metres" are the unit of length of the world. `placed` computes all members.
-/// An object without volume has to_box 0 and half 0, and blocks nothing.
+/// If the matrix of the object has the determinant 0, to_box and half are 0, and the object blocks nothing.
 struct PlacedOccluder {
-    /// Rows of a 3 x 4 matrix. Row i times (position in the world, 1) is the distance from the center of the
-    /// box along its side i, in metres.
+    /// Rows of a 3 x 4 matrix. Row i times (position in the world, 1) is the signed distance from the center
+    /// of the box along its side i, in metres.
     std::array<glm::vec4, 3> to_box;
     glm::vec4 half; ///< xyz: half of the size of the box along each side, in metres; w: the reach in metres
     glm::vec4 slot; ///< x: index of the volume in `occluder_texture`, an integer; yzw: 0
 
-    /// Returns the center of the box in the world, in metres; the origin for an object without volume.
+    /// Returns the center of the box in the world, in metres; the origin of the world if `to_box` is 0.
     glm::vec3 center() const;
     /// Returns the distance from `center` in metres beyond which the object blocks no light.
     float reach() const { return half.w; }
@@ -92,17 +93,19 @@ struct PlacedOccluder {
 /// Returns the occluder `volume` at its position in the world. `to_world` maps the object's frame to the
 /// world; it may rotate, translate and scale. `slot` is the index of `volume` in the argument of
 /// `occluder_texture`. Under non-uniform scale, distances use the mean scale (the cube root of the
-/// determinant), and blocked directions are approximate.
+/// determinant's magnitude), and blocked directions are approximate. Does not check the arguments.
 PlacedOccluder placed(const OcclusionVolume& volume, const glm::mat4& to_world, std::size_t slot);
 
-/// Returns the cap of directions that an object blocks, seen from `position`; both are in the world. `where`
-/// is the result of `placed` for `volume`. The cap blocks nothing if `position` is beyond the reach.
+/// Returns the cap of directions that an object blocks, seen from `position`. Position and directions are in
+/// the frame of the world. `where` is the result of `placed` for `volume`. The cap blocks nothing if
+/// `position` is at the reach or beyond it.
 BlockedCap blocked_at(const OcclusionVolume& volume, const PlacedOccluder& where, const glm::vec3& position);
 
 /// Returns up to `most` indices in `placed`: occluders that can block light in the box from corner `low` to
 /// corner `high`, in the world. An occluder can block light if d is less than its reach, with d the distance
-/// from the center of the occluder to the box. The occluder with the smallest d - reach is first. The list is
-/// for the shader that draws the geometry in the box.
+/// from the center of the occluder to the box. The list is in ascending order of d - reach; if there are more
+/// than `most` occluders, the last ones of this order are omitted. It is for the shader that draws the
+/// geometry in the box.
 std::vector<std::uint32_t> occluders_near(std::span<const PlacedOccluder> placed, const glm::vec3& low,
                                           const glm::vec3& high, std::size_t most);
 
