@@ -40,13 +40,15 @@ void clamped_cosine_lobe(int order, const glm::dvec3& normal, std::span<double> 
 /// 2, and 0 for odd l > 1.
 double clamped_cosine_factor(int l);
 
-/// Returns the factor of the Hann window for band l >= 0: 1 for l = 0, 0 for l >= width. `width` > 0 is the
-/// band, possibly fractional, at which the factor reaches 0; infinity: the factor is 1 for every band.
+/// Returns the factor of the Hann window for band l >= 0: (1 + cos(pi l / width)) / 2 for l < width, else 0.
+/// `width` > 0 is the band, possibly fractional, at which the factor reaches 0; infinity: the factor is 1 for
+/// every band.
 /// Multiplication of the coefficients of each band with its factor reduces ringing (Sloan 2008, "Stupid SH
 /// Tricks").
 double hann_window(int l, double width);
-/// Returns the factor of the Lanczos window for band l >= 0: 1 for l = 0, 0 for l >= width. `width` > 0 is
-/// the band, possibly fractional, at which the factor reaches 0; infinity: the factor is 1 for every band.
+/// Returns the factor of the Lanczos window for band l >= 0: 1 for l = 0, sin(t) / t with t = pi l / width
+/// for 0 < l < width, else 0. `width` > 0 is the band, possibly fractional, at which the factor reaches 0;
+/// infinity: the factor is 1 for every band.
 /// Multiplication of the coefficients of each band with its factor reduces ringing (Sloan 2008, "Stupid SH
 /// Tricks").
 double lanczos_window(int l, double width);

@@ -26,7 +26,7 @@ constexpr int sh_index(int l, int m) {
 
 namespace detail {
 
-/// Returns the square root of `value` >= 0 at compile time. The result for 0 is 2^-64.
+/// Returns the square root of `value` >= 0, also at compile time. The result for 0 is 2^-64.
 constexpr double square_root(double value) {
     double root = value > 1 ? value : 1;
     for (int i = 0; i < 64; ++i)
@@ -36,7 +36,7 @@ constexpr double square_root(double value) {
 
 /// Constants of the polynomials Q_l^m(z), which are the normalised associated Legendre functions divided by
 /// sin^m of the polar angle; z is its cosine. Q includes the factor sqrt(2) of m != 0 and the Condon-Shortley
-/// phase (-1)^m (docs/math.md, eq. 3).
+/// phase (-1)^m (docs/math.md, eq. 3). Constants of bands above kMaxOrder - 1 are 0.
 struct LegendreRecurrence {
     std::array<double, kMaxOrder> sectoral{}; ///< [m] Q_m^m, which is constant
     /// [l][m] factors of the recurrence Q_l^m = a[l][m] z Q_{l-1}^m - b[l][m] Q_{l-2}^m for m < l; 0 for
@@ -148,7 +148,7 @@ template <int Order, class Real>
 }
 
 /// Calls `body.operator()<N>()` with N = order as a template argument, and returns its result. `order` must
-/// be in 1..kMaxOrder. The results for all N must have the same type.
+/// be in 1..kMaxOrder, which is not checked. The results for all N must have the same type.
 template <class Body>
 [[gnu::always_inline]] inline decltype(auto) with_order(int order, Body&& body) {
     switch (order) {

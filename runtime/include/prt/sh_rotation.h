@@ -22,17 +22,17 @@ inline constexpr double kRotationTolerance = 2e-3;
 /// A rotation R of functions on the sphere. It maps the SH coefficients of a function f to those of f'(w) =
 /// f(R^-1 w): light from direction w then comes from R w (docs/math.md, eq. 4). All arithmetic is in double,
 /// so that ten thousand successive rotations lose no visible precision. Immutable and thread-safe; allocates
-/// no memory.
+/// no memory unless a constructor throws.
 class ShRotation {
 public:
     /// Creates the rotation R = `rotation`, which multiplies column vectors, for SH vectors of `order` bands.
     /// A matrix that deviates from a rotation by at most `kRotationTolerance` is orthonormalised. Throws
-    /// `Error` if the matrix deviates more (it scales, shears or contains NaN), if it mirrors, or if `order`
+    /// `Error` if the matrix deviates more (it scales, shears or is not finite), if it mirrors, or if `order`
     /// is not in 1..kMaxOrder.
     ShRotation(int order, const glm::dmat3& rotation);
     /// Creates the rotation of the quaternion `rotation`, which is normalised, for SH vectors of `order`
     /// bands. Throws `Error` if the squared length of `rotation` differs from 1 by more than
-    /// `kRotationTolerance`, or if `order` is not in 1..kMaxOrder.
+    /// `kRotationTolerance`, if `rotation` is not finite, or if `order` is not in 1..kMaxOrder.
     ShRotation(int order, const glm::dquat& rotation);
     /// Returns a rotation about the x axis by `angle` radians, counter-clockwise seen from +x towards the
     /// origin. Throws `Error` for an invalid order or an angle that is not finite.
@@ -41,8 +41,8 @@ public:
     /// origin. Throws `Error` for an invalid order or an angle that is not finite.
     static ShRotation about_y(int order, double angle);
     /// Returns a rotation about the z axis by `angle` radians, counter-clockwise seen from +z towards the
-    /// origin. Rotations about z are faster to apply than others. Throws `Error` for an invalid order or an
-    /// angle that is not finite.
+    /// origin. For orders above 3, rotations about z are faster to apply than others. Throws `Error` for an
+    /// invalid order or an angle that is not finite.
     static ShRotation about_z(int order, double angle);
 
     /// Number of bands that `apply` rotates, as passed to the constructor.
@@ -55,14 +55,14 @@ public:
     /// elements are neither read nor written. `in` and `out` may be the same span, but must not overlap
     /// partially.
     void apply(std::span<const double> in, std::span<double> out) const;
-    /// Rotates the first order()² RGB coefficients in place. Three channels together cost little more than
-    /// one.
+    /// Rotates the first order()² RGB coefficients in place. At order 6, the rotation of three channels takes
+    /// little more time than that of one.
     void apply(std::span<glm::vec3> coefficients) const;
     /// Writes the rotated RGB coefficients of `in` to `out`. Both have at least order()² elements; further
-    /// elements are neither read nor written. `in` and `out` may be the same span.
+    /// elements are neither read nor written. `in` and `out` may overlap in any way.
     void apply(std::span<const glm::vec3> in, std::span<glm::vec3> out) const;
 
-    /// A rotation by an angle a about the z axis: cos(m a) and sin(m a) for m = 0..order-1. Implementation
+    /// A rotation by an angle a about one axis: cos(m a) and sin(m a) for m = 0..order-1. Implementation
     /// detail.
     struct Rotation {
         /// Index of the entry for m = 0. The three entries before it are 0; SIMD code reads them as padding.
@@ -71,7 +71,8 @@ public:
         std::array<double, kZero + kMaxOrder> cosine, sine;
         Rotation() {} // leaves all entries uninitialised
     };
-    /// Decomposition R = R_z(last) R_y(tilt) R_z(first), used for orders above 3. Implementation detail.
+    /// Decomposition R = R_z(last) R_y(tilt) R_z(first), used only for orders above 3; for lower orders it
+    /// may be uninitialised. Implementation detail.
     struct Rotations {
         Rotation first, tilt, last; ///< factors in the sequence of their application: about z, y and z
         /// False if R is a rotation about z, equal to `first`; `tilt` and `last` are then not used.
@@ -80,8 +81,8 @@ public:
 
 private:
     int order_;
-    glm::dmat3 matrix_;   ///< rotates bands 1 and 2
-    Rotations rotations_; ///< rotates the higher bands
+    glm::dmat3 matrix_;   ///< R; rotates bands 1 and 2
+    Rotations rotations_; ///< rotates the higher bands, and band 2 of one channel for orders above 3
 };
 
 } // namespace prt

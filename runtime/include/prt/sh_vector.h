@@ -2,8 +2,8 @@
 
 // Functions on the sphere as vectors of SH coefficients [order²]: sums, dot products and products, in float
 // and double. All functions are thread-safe. They allocate no memory, except that `sh_product` and
-// `sh_product_matrix` build tables at their first call. Arguments are not checked in release builds: the
-// order must be in 1..kMaxOrder, and spans must have the stated length. Stable.
+// `sh_product_matrix` build tables at first use and keep them. Arguments are not checked in release builds:
+// the order must be in 1..kMaxOrder, and spans must have the stated length. Stable.
 
 #include "prt/sh_basis.h"
 #include "prt/support/glm_layout.h"
@@ -54,17 +54,18 @@ double sh_value(int order, std::span<const double> function, const glm::dvec3& d
 
 /// Writes the first `order` bands of the product a(w) b(w) to `out`, exact up to rounding
 /// (docs/math.md, eq. 5): for example shadow times light, or light times the transmittance of an object. `a`,
-/// `b` and `out` are [order²]; `out` may be `a` or `b`. The first call for an order above 3 builds tables,
-/// which allocates memory. Equivalent to D3DXSHMultiply2 to 6.
+/// `b` and `out` are [order²]; `out` may be `a` or `b`. The first call for an order of 4 to 6 and the first
+/// call for an order above 6 build tables, which allocates memory. Equivalent to D3DXSHMultiply2 to 6.
 void sh_product(int order, std::span<const float> a, std::span<const float> b, std::span<float> out);
 /// Writes the first `order` bands of the product a(w) b(w) to `out`, exact up to rounding
 /// (docs/math.md, eq. 5). `a`, `b` and `out` are [order²]; `out` may be `a` or `b`. The first call for an
-/// order above 3 builds tables, which allocates memory.
+/// order above 3 builds tables, which allocates memory, unless `sh_product_matrix` has built them.
 void sh_product(int order, std::span<const double> a, std::span<const double> b, std::span<double> out);
 
 /// Writes the matrix M of the product with `function` [order²] to `matrix` [order²][order²]: row i, column j
 /// contains ∫ f(w) Y_i(w) Y_j(w) dw. M is symmetric. M g equals `sh_product` of f and g; a caller with many
-/// functions g forms M once. The first call builds tables, which allocates memory.
+/// functions g forms M once. The first call builds tables, which allocates memory, unless `sh_product` for
+/// double has built them.
 void sh_product_matrix(int order, std::span<const double> function, std::span<double> matrix);
 
 } // namespace prt

@@ -19,8 +19,9 @@ public:
     /// length of `sun` is 1 within 0.001.
     PreethamSky(double turbidity, const glm::dvec3& sun);
 
-    /// Returns the radiance from unit direction `direction`: linear Rec. 709, luminance in kcd/m², no
-    /// negative channel. Returns black for direction.y <= 0.
+    /// Returns the radiance from unit direction `direction`: linear Rec. 709, luminance in kcd/m². Channels
+    /// that would be negative are 0. Returns black for direction.y <= 0. For 0 < direction.y < 0.01 the model
+    /// uses 0.01 for the height above the horizon.
     glm::dvec3 radiance(const glm::dvec3& direction) const;
     /// Luminance of the sky in direction +Y, in kcd/m².
     double zenith_luminance() const { return zenith_luminance_; }

@@ -21,11 +21,11 @@ struct Sun {
 
 /// Returns `sun` as SH radiance coefficients of `order` bands (docs/math.md, eq. 14), for example for
 /// `Lighting::suns`. Throws `Error` for an order outside 1..kMaxOrder, a half angle outside 0..pi/2, a
-/// direction of length 0, and values that are not finite.
+/// direction of length 0, values that are not finite, and coefficients that overflow a float.
 Light as_light(const Sun& sun, int order);
 /// Returns the sum of all `suns` as SH radiance coefficients of `order` bands, for example for
-/// `Lighting::suns`; all coefficients are 0 if `suns` is empty. Throws `Error` if a sun or the order is
-/// invalid, or if the sum overflows a float.
+/// `Lighting::suns`; all coefficients are 0 if `suns` is empty. Throws `Error` for an order outside
+/// 1..kMaxOrder, for a sun that the other overload rejects, and for a sum that overflows a float.
 Light as_light(std::span<const Sun> suns, int order);
 
 } // namespace prt

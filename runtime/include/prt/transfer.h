@@ -27,7 +27,7 @@ struct Transfer {
 
     /// Number of coefficients of one transfer vector.
     std::size_t dimension() const { return layout.dimension(); }
-    /// Number of receivers; 0 if the layout has no terms.
+    /// Number of receivers; 0 if dimension() is 0, for example because the layout has no terms.
     std::size_t receivers() const { return dimension() == 0 ? 0 : vectors.size() / dimension(); }
     /// Returns the transfer vector [dimension()] of the receiver with the index `receiver` < receivers(), as
     /// a view of `vectors`.
@@ -61,34 +61,34 @@ glm::vec3 exit_radiance(std::span<const float> transfer, const TransferLayout& l
                         std::span<const glm::vec3> columns);
 
 /// Returns the exit radiance of every receiver for albedo 1, [receivers], in the unit of the radiance of
-/// `lighting`. `threads`: number of threads; 0: all hardware threads. Requires layout.outputs = 1. Throws
-/// `Error` if the sky or the suns have fewer bands than the layout, or if `lighting.lamps` has neither 0 nor
-/// layout.lamps() elements.
+/// `lighting`. `threads`: number of threads; 0: all hardware threads. Requires layout.outputs = 1. Throws the
+/// errors of `light_columns`.
 std::vector<glm::vec3> exit_radiance(const Transfer& transfer, const Lighting& lighting, int threads = 0);
 /// Returns the exit radiance of every receiver for albedo 1, [receivers], in the unit of the radiance of
 /// `light`. `light` is the whole sky including its suns; every lamp has the strength 1, as in the scene.
 /// `threads`: number of threads; 0: all hardware threads. Requires layout.outputs = 1. Throws `Error` if
-/// `light` has fewer bands than the layout.
+/// `light` has fewer bands than the layout, also if all terms are lamps.
 std::vector<glm::vec3> exit_radiance(const Transfer& transfer, const Light& light, int threads = 0);
 
-/// Returns a layout in which one `combined` term replaces the terms `direct` and `indirect`. The combined
-/// term has three channels if one of the replaced terms has three, else one. Lamp terms are unchanged.
-/// Without terms of distant light the result has only the lamp terms. Requires layout.outputs = 1.
+/// Returns a layout in which one `combined` term replaces all terms of distant light (`direct`, `indirect`,
+/// both, or `combined`). The new term has three channels if a replaced term has three, else one. Lamp terms
+/// are unchanged. Without terms of distant light the result has only the lamp terms. Requires
+/// `layout.outputs` = 1.
 TransferLayout as_combined(const TransferLayout& layout);
-/// Returns transfer in which one `combined` term, their sum, replaces the terms `direct` and `indirect` of
-/// each receiver. Its layout is `as_combined(transfer.layout)`; lamp terms are unchanged. Exit radiance is
-/// the same if all distant light is in the sky, without separate suns. `threads`: number of threads; 0: all
-/// hardware threads. Requires layout.outputs = 1.
+/// Returns transfer in which one `combined` term, their sum, replaces all terms of distant light of each
+/// receiver. Its layout is `as_combined(transfer.layout)`; lamp terms are unchanged. Exit radiance is the
+/// same, except for rounding, if all distant light is in the sky, without separate suns. `threads`: number of
+/// threads; 0: all hardware threads. Requires layout.outputs = 1.
 Transfer as_combined(const Transfer& transfer, int threads = 0);
-/// Returns the transfer vector of one receiver, in which one `combined` term, their sum, replaces the terms
-/// `direct` and `indirect`; lamp terms are unchanged. `transfer` is [layout.dimension()]; the result has the
-/// layout `as_combined(layout)`. Requires layout.outputs = 1.
+/// Returns the transfer vector of one receiver, in which one `combined` term, their sum, replaces all terms
+/// of distant light; lamp terms are unchanged. `transfer` is [layout.dimension()]; the result has the layout
+/// `as_combined(layout)`. Requires layout.outputs = 1.
 std::vector<float> as_combined(std::span<const float> transfer, const TransferLayout& layout);
 
 /// Returns the mean visibility: the fraction of a uniform sky's light that arrives at the receivers, averaged
 /// with the weights `areas` [receivers] (docs/math.md, eq. 34). Terms of distant light are summed, and the
-/// channels of each term are averaged; lamps do not count. Returns 0 if the sum of the areas is 0. Requires
-/// layout.outputs = 1.
+/// channels of each term are averaged; lamps do not count. Returns 0 if the sum of the areas is 0, or if the
+/// layout has no terms of distant light. Requires layout.outputs = 1.
 double mean_visibility(const Transfer& transfer, std::span<const float> areas);
 
 } // namespace prt

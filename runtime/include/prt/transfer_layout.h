@@ -94,7 +94,8 @@ struct TransferLayout {
 TransferLayout layout_of_one(int order, int channels, TermKind kind = TermKind::combined);
 
 /// Throws `Error` unless the order is in 1..kMaxOrder, outputs is 1, 4, 9 or 16, and the terms satisfy the
-/// conditions documented in `TransferTerm` and `TransferLayout`.
+/// conditions documented in `TransferTerm` and `TransferLayout`. Does not check the names in the `members` of
+/// lamps.
 void check_layout(const TransferLayout& layout);
 
 /// The lighting of a frame. A `direct` term is lit by `sky` only; `indirect` and `combined` terms are lit by
@@ -127,7 +128,7 @@ struct LightingView {
     LightingView(const std::vector<glm::vec3>& of_sky) : sky(of_sky) {}
     /// Views `light` as a sky that includes all suns. Every lamp has the strength 1.
     LightingView(const Light& light) : sky(light.coefficients) {}
-    /// Views sky, suns and lamps of `lighting`.
+    /// Views sky, suns and lamps of `lighting`. Suns without coefficients count as no suns.
     LightingView(const Lighting& lighting) : sky(lighting.sky.coefficients), lamps(lighting.lamps) {
         if (lighting.suns)
             suns = lighting.suns->coefficients;
@@ -144,8 +145,9 @@ inline constexpr std::size_t kMaxLightColumns =
 
 /// Returns the RGB colors that light the terms of one output, term after term, [layout.columns()]: for a term
 /// of distant light the first order² coefficients of its light (see `Lighting`), for a lamp its strength.
-/// Throws `Error` if the sky or the suns have fewer bands than the layout, or if `lighting.lamps` has neither
-/// 0 nor layout.lamps() elements.
+/// Throws `Error` if the sky has fewer than order² coefficients (also if all terms are lamps), if the suns
+/// are not empty and have fewer than order², or if `lighting.lamps` has neither 0 nor layout.lamps()
+/// elements.
 std::vector<glm::vec3> light_columns(const TransferLayout& layout, const LightingView& lighting);
 /// Writes the result of `light_columns(layout, lighting)` to `columns`, which has at least layout.columns()
 /// elements. Throws the same errors. Allocates no memory unless it throws.

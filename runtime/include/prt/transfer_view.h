@@ -22,14 +22,14 @@ struct StoredTransfer {
     std::vector<std::uint16_t> halves; ///< [receivers][layout.dimension()] bits of finite float16 numbers;
                                        ///< empty if `floats` is used
 
-    /// Returns the number of receivers; 0 if the layout has no terms.
+    /// Returns the number of receivers; 0 if layout.dimension() is 0, for example because there are no terms.
     std::size_t receivers() const;
 };
 
 /// Reads the transfer vectors of a list of receivers, in blocks, as floats. A view of a `Transfer`,
 /// `StoredTransfer` or `ClusteredTransfer` keeps a reference to that object, which must outlive the view and
-/// all copies of the view, and is thread-safe. A view of a `Read` function owns a copy of the function, and
-/// is thread-safe if the function is.
+/// all copies of the view, and must not change meanwhile; the view is thread-safe. A view of a `Read`
+/// function owns a copy of the function, and is thread-safe if the function is.
 class TransferView {
 public:
     /// Function that writes the transfer vectors of n consecutive receivers, the first with index `first`, to
@@ -43,8 +43,8 @@ public:
     /// Views compressed transfer; `read` decompresses only the requested vectors, with the same result as
     /// `decode`. Keeps a reference to `transfer`.
     TransferView(const ClusteredTransfer& transfer);
-    /// Creates a view that reads with the function `read`, for example from a file. `receivers` is their
-    /// number; each vector has layout.dimension() coefficients.
+    /// Creates a view that reads with the function `read`, for example from a file. `receivers` is the number
+    /// of receivers; each vector has layout.dimension() coefficients.
     TransferView(TransferLayout layout, std::size_t receivers, Read read);
 
     /// Layout of the vectors that `read` writes.
@@ -55,7 +55,7 @@ public:
     std::size_t receivers() const { return receivers_; }
     /// Writes the transfer vectors of n consecutive receivers, the first with index `first`, to `to`
     /// [n][dimension()]. The size of `to` determines n. Requires first + n <= receivers(), which is not
-    /// checked.
+    /// checked. Throws only the errors of the function `Read`, if the view has one.
     void read(std::size_t first, std::span<float> to) const { read_(first, to); }
 
 private:
@@ -65,12 +65,12 @@ private:
 };
 
 /// Returns a view whose vectors are those of `transfer` after `as_combined` of prt/transfer.h: one `combined`
-/// term replaces `direct` and `indirect`. The object that `transfer` refers to must outlive the result.
-/// Requires layout.outputs = 1.
+/// term replaces all terms of distant light. The object that `transfer` refers to must outlive the result.
+/// Requires layout.outputs = 1 and at least one term.
 TransferView as_combined(TransferView transfer);
 /// Returns a view of order.size() receivers in another sequence: its receiver p is receiver order[p] of
-/// `transfer`. Indices may be omitted or repeated. The object that `transfer` refers to must outlive the
-/// result.
+/// `transfer`. Indices may be omitted or repeated; each must be less than transfer.receivers(), which is not
+/// checked. The object that `transfer` refers to must outlive the result.
 TransferView in_order(TransferView transfer, std::vector<std::uint32_t> order);
 
 } // namespace prt

@@ -34,8 +34,8 @@ inline constexpr int kMaxIncidentOrder = 4;
 
 /// Position and size of a brick of probes in a `VolumeGrid`.
 struct VolumeBrick {
-    /// Minimum corner relative to VolumeGrid::origin, in widths of a brick of level 0; each coordinate is a
-    /// multiple of 2^level and less than that of VolumeGrid::size.
+    /// Minimum corner relative to VolumeGrid::origin, in widths of a brick of level 0; each coordinate is 0
+    /// or a positive multiple of 2^level, and less than that of VolumeGrid::size.
     glm::ivec3 position{0};
     int level = 0; ///< 0..kMaxBrickLevel; a cell is VolumeGrid::spacing · 2^level metres wide
 
@@ -85,7 +85,8 @@ struct VolumeProbes {
     /// Number of probes.
     std::size_t size() const { return corners.size(); }
 };
-/// Returns the probes of `grid`. Throws `Error` if bricks overlap. Requires a grid that `check_grid` accepts.
+/// Returns the probes of `grid`. Throws `Error` if bricks overlap; does not check the other conditions of
+/// `check_grid`, which are required.
 VolumeProbes probes_of(const VolumeGrid& grid);
 
 /// Returns the position of `corner`, an element of VolumeProbes::corners, in metres, relative to
@@ -95,10 +96,10 @@ inline glm::vec3 position_of(const VolumeGrid& grid, const glm::ivec3& corner) {
 }
 
 /// Visibility distances of a probe along -x, +x, -y, +y, -z, +z: distances to the nearest surfaces that block
-/// the view from the probe. Each is stored as round(255 · sqrt(distance / (kVisibilityCells · c))), with c
-/// the width of a cell of the probe's level (VolumeProbes::levels). All six are 0 if the probe is inside
-/// geometry. A point at offset d from the probe is hidden if, for an axis a, |d_a| exceeds the visibility
-/// distance along a in the direction of the sign of d_a (docs/math.md, section 19).
+/// the view from the probe. Each is stored as round(255 · sqrt(distance / (kVisibilityCells · c))), at most
+/// 255, with c the width of a cell of the probe's level (VolumeProbes::levels). All six are 0 if the probe is
+/// inside geometry. A point at offset d from the probe is hidden if, for an axis a, |d_a| exceeds the
+/// visibility distance along a in the direction of the sign of d_a (docs/math.md, section 19).
 using ProbeVisibility = std::array<std::uint8_t, 6>;
 /// Maximum visibility distance that `ProbeVisibility` stores, in widths of a cell of the probe's level.
 inline constexpr float kVisibilityCells = 4;
@@ -133,9 +134,9 @@ struct CompressedVolume {
 
 /// Returns the SH coefficients of the incident light at every probe under `lighting`, [probes][order²], in
 /// the unit of the radiance of `lighting`. `threads`: number of threads; 0: all hardware threads. Requires
-/// packed weights. Throws `Error` if the sky or the suns have fewer bands than the transfer, or if
-/// `lighting.lamps` has neither 0 elements nor one for each lamp. For a `BakedVolume`,
-/// `exit_radiance(volume.baked.transfer, lighting)` of prt/transfer.h returns the same coefficients.
+/// packed weights. Throws `Error` if the layout of the transfer is invalid, and the errors of
+/// `light_columns` (prt/transfer_layout.h). For a `BakedVolume`, `exit_radiance(volume.baked.transfer,
+/// lighting)` of prt/transfer.h returns these coefficients without the error of compression.
 std::vector<glm::vec3> incident_light(const CompressedVolume& volume, const Lighting& lighting,
                                       int threads = 0);
 
@@ -146,12 +147,13 @@ struct VolumeCorners {
     std::array<float, 8> weights{};        ///< weight of each of `probes`, 0..1; the sum is 1
 };
 
-/// Finds the probes that light a position; probes that a surface hides from the position have almost no
-/// weight. Owns a copy of its input. Immutable and thread-safe.
+/// Finds the probes that light a position. Probes that a surface hides from the position have almost no
+/// weight, unless all eight are hidden. Owns a copy of its input. Immutable and thread-safe.
 class VolumeLookup {
 public:
-    /// `visibility` is [probes], in the sequence of `probes_of(grid)`. Requires a grid that `check_grid`
-    /// accepts. Throws `Error` if `visibility` has another length, or if bricks overlap.
+    /// `visibility` is [probes], in the sequence of `probes_of(grid)`. Throws `Error` if `visibility` has
+    /// another length, or if bricks overlap; does not check the other conditions of `check_grid`, which are
+    /// required.
     VolumeLookup(const VolumeGrid& grid, std::span<const ProbeVisibility> visibility);
 
     /// Returns the probes of the grid.
@@ -159,8 +161,9 @@ public:
     /// Returns the probes that light `position`, and their weights. `position` is in metres, relative to
     /// Scene::origin (prt/scene.h); a position outside the box is moved to the nearest point of the box.
     /// `normal` is the unit normal of the lit surface: the lookup uses the point at a distance of a quarter
-    /// of a cell from `position` along `normal`. Zero (the default): no offset. If no brick contains the
-    /// point, the nearest cell of the first brick is used.
+    /// of a cell from `position` along `normal`, moved into the box. Zero (the default): no offset. The cell
+    /// is one of the brick that contains the point. If there is none, the nearest cell of the brick that
+    /// contains `position` is used, or, if there is none either, of the first brick.
     VolumeCorners find(const glm::vec3& position, const glm::vec3& normal = glm::vec3(0)) const;
     /// Element of `index()` for a position that no brick covers.
     static constexpr std::uint32_t kNoBrick = ~0u;
@@ -173,7 +176,8 @@ private:
     VolumeGrid grid_;
     VolumeProbes probes_;
     std::vector<std::uint32_t> index_;
-    std::vector<std::array<float, 6>> nearness_; ///< [probes] 1 / visibility distance, per metre
+    /// [probes] 1 / visibility distance, per metre; kInvalidNearness (prt/volume_weights.h) if it is 0.
+    std::vector<std::array<float, 6>> nearness_;
 };
 
 /// Interpolates the incident light at a position: writes the weighted sum of the incident light at the eight
@@ -184,7 +188,7 @@ void mix_incident(const VolumeCorners& corners, std::span<const glm::vec3> incid
 
 /// Returns the irradiance, divided by pi, on a surface with unit normal `normal`; this is its exit radiance
 /// for albedo 1 (Ramamoorthi and Hanrahan 2001). `incident` contains the 4, 9 or 16 SH coefficients of the
-/// incident light, and has its unit. A channel that would be negative is 0.
+/// incident light; the result has the same unit. A channel that would be negative is 0.
 glm::vec3 irradiance_of(std::span<const glm::vec3> incident, const glm::vec3& normal);
 
 } // namespace prt

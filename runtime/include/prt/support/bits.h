@@ -37,7 +37,7 @@ public:
     /// Starts at the lowest bit of the first byte. Keeps a reference to `bytes`, which must outlive the
     /// reader.
     explicit BitReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
-    /// Returns whether at least `width` >= 0 unread bits are left.
+    /// Returns whether at least `width` >= 0 unread bits are left, including unused bits of the last byte.
     bool has(int width) const { return position_ + static_cast<std::size_t>(width) <= bytes_.size() * 8; }
     /// Returns the next `width` bits as a number, lowest bit first, and moves past them; 0 <= width <= 32.
     /// The caller must ensure `has(width)`.

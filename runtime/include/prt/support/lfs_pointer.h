@@ -10,8 +10,8 @@
 
 namespace prt {
 
-/// Returns whether `file`, the bytes of a file, begins with the first line of a Git LFS pointer ("Git LFS
-/// Specification").
+/// Returns whether `file`, the bytes of a file, begins like a Git LFS pointer of any version ("Git LFS
+/// Specification"). The rest of the file is not checked.
 inline bool is_lfs_pointer(std::span<const std::byte> file) {
     constexpr std::string_view kFirstLine = "version https://git-lfs.github.com/spec/";
     return file.size() >= kFirstLine.size() &&

@@ -12,10 +12,11 @@ namespace prt {
 int thread_count(int requested);
 
 /// Calls `body(begin, end)` once for each block of indices [begin, end). The blocks cover [0, count); each
-/// starts at a multiple of `grain` > 0 and has `grain` indices, the last one possibly fewer. Uses `threads`
-/// threads including the calling one (0 or less: all hardware threads), which call `body` concurrently and in
-/// no fixed sequence. Returns when all calls have returned. If `body` throws, no further block is started,
-/// and the first exception is rethrown after all threads have stopped.
+/// starts at a multiple of `grain` > 0 and has `grain` indices, the last one possibly fewer. Uses at most
+/// `thread_count(threads)` threads including the calling one, fewer if the system cannot start them. They
+/// call `body` concurrently and in no fixed sequence. Returns when all calls have returned. If `body` throws,
+/// the blocks that have not started are skipped, and the first exception is rethrown after all threads have
+/// stopped.
 void parallel_for(std::size_t count, std::size_t grain, int threads,
                   const std::function<void(std::size_t begin, std::size_t end)>& body);
 

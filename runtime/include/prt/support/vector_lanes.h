@@ -57,9 +57,9 @@ inline constexpr int kNarrow = 8;
 // PRT_TARGET_CLONES and PRT_TWO_CLONES are attributes of a function that is compiled for several vector
 // widths; the widest version that the processor supports is selected at run time. A version affects only code
 // that is inlined into the function; its helpers are therefore [[gnu::always_inline]]. The attributes are
-// empty, and one width is compiled, if the compiler is not GCC on x86-64 Linux, with the address sanitizer
-// (sanitizers cannot instrument the code that selects the version), and if PRTKIT_NO_CLONES is defined
-// (CMake: PRTKIT_CLONES=OFF).
+// empty, and one width is compiled, in each of three cases: the compiler is not GCC for x86-64 Linux, the
+// address sanitizer is on (sanitizers cannot instrument the code that selects the version), or
+// PRTKIT_NO_CLONES is defined (CMake: PRTKIT_CLONES=OFF).
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__linux__) &&                 \
     !defined(__SANITIZE_ADDRESS__) && !defined(PRTKIT_NO_CLONES)
 // Three versions: AVX-512, AVX2 and the baseline of the build.
