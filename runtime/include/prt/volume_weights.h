@@ -17,7 +17,7 @@ namespace prt {
 /// the brick that contains the surface point.
 inline constexpr float kNormalBias = 0.25f;
 /// The visibility weight of a probe is 1 up to kVisibilityFull times the visibility distance. It falls
-/// smoothly to kHiddenWeight at about kVisibilityNone times this distance.
+/// smoothly to about kHiddenWeight at kVisibilityNone times this distance.
 inline constexpr float kVisibilityFull = 0.8f, kVisibilityNone = 1.03f;
 /// Minimum visibility weight of a probe for points up to its visibility distance. Beyond this distance the
 /// minimum is kHiddenWeight / r^8, with r the distance of the point divided by the visibility distance, at

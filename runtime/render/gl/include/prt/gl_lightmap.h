@@ -34,7 +34,7 @@ public:
     explicit GlLightmap(const CompressedLightmap& lightmap);
 
     /// Computes the radiance of all texels for `lighting`, and all mip levels. Changes the program in use and
-    /// the bound storage buffers, textures and images. Throws the errors of `ClusterLighting::update`.
+    /// the bound storage buffers, textures and image units. Throws the errors of `ClusterLighting::update`.
     void set_light(const Lighting& lighting);
     /// Returns the lit textures. They are valid as long as this object and the lightmap of its constructor.
     GlLightmapTextures textures() const { return {&layout_, maps_}; }

@@ -55,7 +55,7 @@ GlObject make_buffer(std::span<const T> values) {
 /// cannot. Throws `GpuOutOfMemory` if GPU memory runs out, and the other errors of `check_gl`.
 GlObject make_buffer_of(std::size_t bytes);
 /// Copies the first `to.size()` bytes of `buffer` into `to`. If shaders wrote the buffer, the caller must
-/// issue glMemoryBarrier before. The buffer must have at least this size. Throws the errors of
+/// issue glMemoryBarrier before. The buffer must have at least `to.size()` bytes. Throws the errors of
 /// `check_gl(what)`.
 void read_buffer(const GlObject& buffer, std::span<std::byte> to, const char* what);
 /// Copies the start of `buffer` into the values `to`, like `read_buffer` for bytes.
