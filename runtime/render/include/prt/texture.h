@@ -39,7 +39,7 @@ Texture make_texture(Image8 image, TextureEncoding encoding = TextureEncoding::s
 /// the origin.
 glm::vec4 sample(const Texture& texture, const TextureUse& use, const glm::vec2& uv, float lod);
 
-/// Treatment of missing or damaged images in `load_textures`.
+/// Treatment of missing, damaged or unsupported images in `load_textures`.
 enum class BadTextures {
     error,  ///< throw an `Error` with the name of the image
     ignore, ///< leave the texture empty: renderers use only the factor that it multiplies, and show no
@@ -66,8 +66,8 @@ bool is_missing(const TextureUse& use, std::span<const Texture> textures);
 
 /// Decodes the images that `scene` needs for purpose `needs`, and builds their mip chains. Returns one
 /// texture per element of Scene::images; textures that are not needed have no levels. `bad`: whether a
-/// missing or damaged image throws `Error`, or its texture stays without levels. Always throws `Error` if the
-/// decoded images need more memory than 192 MB plus 64 times the size of their files.
+/// missing, damaged or unsupported image throws `Error`, or its texture stays without levels. Always throws
+/// `Error` if the decoded images need more memory than 192 MB plus 64 times the size of their files.
 std::vector<Texture> load_textures(const Scene& scene, BadTextures bad = BadTextures::error,
                                    TextureNeeds needs = TextureNeeds::all);
 

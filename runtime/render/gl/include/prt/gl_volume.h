@@ -29,8 +29,9 @@ public:
 
     /// Computes the light texture for `lighting` on the GPU. `sun`: unit direction towards a sun, whose
     /// visibility at each probe is computed, 0..1. The visibility is 0 if `sun` has no value, or if the
-    /// transfer has no `direct` term. Changes the program in use and the bound storage buffers and image
-    /// units. Throws the errors of `ClusterLighting::update`.
+    /// transfer has no `direct` term. Magnitudes above 65 504 become 65 504, in both formats. Changes the
+    /// program in use and the bound storage buffers and image units. Throws the errors of
+    /// `ClusterLighting::update`.
     void set_light(const Lighting& lighting, const std::optional<glm::vec3>& sun = {});
     /// Uploads a light texture that the CPU computed, instead of `set_light`. `texels`: result of
     /// relighter().update, [relighter().bytes()]. Throws `Error` if OpenGL reports an error.
