@@ -33,10 +33,11 @@ enum class VolumeFormat {
 class VolumeRelighter {
 public:
     /// Prepares the light texture of `volume` in the given format. Keeps a reference to `volume`, which must
-    /// outlive the relighter. Requires packed weights. Throws `Error` if bricks of the volume overlap.
+    /// outlive the relighter. Requires a grid that `check_grid` accepts, and packed weights. Throws `Error`
+    /// if bricks of the volume overlap, or if the layout of its transfer is invalid.
     explicit VolumeRelighter(const CompressedVolume& volume, VolumeFormat format = VolumeFormat::rgba16);
 
-    /// Layout of the transfer vectors of the volume.
+    /// Layout of the transfer vectors of the volume, reduced to one output (`TransferLayout::of_one_output`).
     const TransferLayout& layout() const { return constants_.layout(); }
     /// Positions of the bricks in the light texture, and the size of this texture.
     const VolumeAtlas& atlas() const { return atlas_; }
@@ -48,22 +49,22 @@ public:
     /// Size of the light texture in bytes: all planes of `atlas()`, in the format passed to the constructor.
     std::size_t bytes() const;
 
-    /// Computes the constants for `lighting` and writes them to `constants` [rows()]: r, g, b are those of
-    /// `ClusterLighting::update`. For output 0, w is the response of the row to a sun in unit direction
-    /// `sun`, from which `update` computes the visibility of this sun at each probe. For other outputs, w is
-    /// 0. All w are 0 if `sun` has no value, and if the transfer has no `direct` term, because suns then
-    /// light all of its terms. Throws `Error` if the sky or the suns have too few bands, or the number of
-    /// lamp strengths is wrong.
+    /// Computes the constants for `lighting` and writes them to `constants` [rows() or more]: r, g, b are
+    /// those of `ClusterLighting::update`. For output 0, w is the response of the row to a sun in unit
+    /// direction `sun`, from which `update` computes the visibility of this sun at each probe. For other
+    /// outputs, w is 0. All w are 0 if `sun` has no value, and if the transfer has no `direct` term, because
+    /// suns then light all of its terms. Throws the errors of `ClusterLighting::update`.
     void update_constants(const LightingView& lighting, const std::optional<glm::vec3>& sun,
                           std::span<glm::vec4> constants) const;
 
     /// Computes the light texture from the `constants` [rows()] of `update_constants`, and writes it to
     /// `texels` [bytes()]: for each probe the coefficients of incident light, then the visibility of the sun,
-    /// 0..1. Texels that belong to no brick are not changed. `threads`: number of threads; 0: all hardware
-    /// threads.
+    /// 0..1, then zeros up to the end of the last plane. Texels that belong to no brick are not changed.
+    /// `threads`: number of threads; 0: all hardware threads.
     void update(std::span<const glm::vec4> constants, std::span<std::byte> texels, int threads = 0) const;
-    /// Computes, like `update`, only the texels of the probes with indices first .. last - 1, in the calling
-    /// thread. The caller can spread the probes over threads or frames. Requires last <= probes().
+    /// Computes, like `update`, only the texels of the probes with indices `first` .. `last` - 1, in the
+    /// calling thread, and does not change other texels. The caller can spread the probes over threads or
+    /// frames. Requires last <= probes().
     void update_probes(std::span<const glm::vec4> constants, std::size_t first, std::size_t last,
                        std::span<std::byte> texels) const;
 
@@ -73,7 +74,9 @@ private:
     VolumeAtlas atlas_;
     ClusterLighting constants_;
     std::vector<ClusterLayout> clusters_;
-    std::vector<float> direct_; ///< [rows / outputs][order²] `direct` coefficients of output 0, grey
+    /// [rows / outputs][layout().order²] `direct` coefficients of output 0, grey; empty without a `direct`
+    /// term
+    std::vector<float> direct_;
     std::vector<std::uint32_t> first_texels_; ///< [probes + 1] first entry of each probe in `texels_`
     std::vector<std::uint32_t> texels_; ///< indices of the texels of each probe in a plane, probe by probe
 };

@@ -56,15 +56,16 @@ struct VolumeAtlas {
     friend bool operator==(const VolumeAtlas&, const VolumeAtlas&) = default;
 };
 
-/// Returns the atlas for all bricks of `grid`. `order`: number of bands of incident light.
+/// Returns the atlas for all bricks of `grid`. `order`: number of bands of incident light, 2 to
+/// kMaxIncidentOrder.
 VolumeAtlas atlas_of(const VolumeGrid& grid, int order);
 
 /// Builds the visibility texture, [texels_of_plane()][2]. `probes`: probes_of(grid); `visibility`: [probes].
 /// Four bytes of word 0, lowest first: the stored visibility distances along -x, +x, -y and +y. Four bytes of
 /// word 1: the distances along -z and +z, the level of the probe minus the level of the brick, and a flag.
 /// The flag belongs to the cell whose minimum corner is this probe. The flag is 1 if all eight probes of the
-/// cell see the whole cell, so that shaders use trilinear weights there; otherwise 0. Texels without a brick
-/// are 0.
+/// cell see the whole cell, so that shaders use trilinear weights there. Otherwise, and if the brick has no
+/// cell at this corner, the flag is 0. Texels without a brick are 0.
 std::vector<std::uint32_t> visibility_texels(const VolumeGrid& grid, const VolumeProbes& probes,
                                              std::span<const ProbeVisibility> visibility);
 

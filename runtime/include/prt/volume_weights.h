@@ -17,19 +17,20 @@ namespace prt {
 /// the brick that contains the surface point.
 inline constexpr float kNormalBias = 0.25f;
 /// The visibility weight of a probe is 1 up to kVisibilityFull times the visibility distance. It falls
-/// smoothly to kHiddenWeight at about kVisibilityNone times this distance.
+/// smoothly to about kHiddenWeight at kVisibilityNone times this distance.
 inline constexpr float kVisibilityFull = 0.8f, kVisibilityNone = 1.03f;
-/// Visibility weight of a probe that a surface hides, for a point at the visibility distance. Beyond this
-/// distance the weight decreases with its eighth power, down to kHiddenWeight / 16^8, and is never 0.
-/// Therefore the weights of eight hidden probes have a sum above 0, and the probes with the least excess
-/// distance dominate.
+/// Minimum visibility weight of a probe for points up to its visibility distance. Beyond this distance the
+/// minimum is kHiddenWeight / r^8, with r the distance of the point divided by the visibility distance, at
+/// most 16. No visibility weight is 0. Therefore eight hidden probes still light the point, and the probes
+/// with the smallest r dominate.
 inline constexpr float kHiddenWeight = 1e-4f;
 /// Value for 1 / visibility distance, per metre, if the distance is 0: the probe is inside geometry.
 inline constexpr float kInvalidNearness = 1e18f;
 
-/// Returns the visibility weight of a probe, above 0 and up to 1, for a point. `from`: the point minus the
-/// position of the probe, metres. `nearness`: 1 / visibility distance of the probe along -x, +x, -y, +y, -z,
-/// +z, per metre; kInvalidNearness if the distance is 0.
+/// Returns the visibility weight of a probe, above 0 and up to 1, for a point. The axis along which the
+/// offset of the point is largest, relative to the visibility distance in that direction, determines the
+/// weight. `from`: the point minus the position of the probe, metres. `nearness`: 1 / visibility distance of
+/// the probe along -x, +x, -y, +y, -z, +z, per metre; kInvalidNearness if the distance is 0.
 inline float visibility_weight(const std::array<float, 6>& nearness, const glm::vec3& from) {
     float passed = 0; // 1: at the distance of the surface
     for (int a = 0; a < 3; ++a)

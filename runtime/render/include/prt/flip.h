@@ -18,9 +18,9 @@ struct FlipOptions {
     int threads = 0; ///< number of CPU threads; 0: all
 };
 
-/// Computes FLIP of two pictures in linear Rec. 709, and clamps their values to 0..1. Returns the difference
-/// at each pixel, [height][width], from 0 (identical) to 1. Throws `Error` if sizes differ or a picture is
-/// empty.
+/// Computes FLIP of two pictures in linear Rec. 709; clamps the values of the pictures to 0..1 before.
+/// Returns the difference at each pixel, [height][width], from 0 (identical) to 1. Throws `Error` if sizes
+/// differ or a picture is empty.
 std::vector<float> flip(const Image& reference, const Image& test, const FlipOptions& options = {});
 
 /// Exposures of HDR-FLIP: `count` equally spaced values from `start` to `stop`, both included. An exposure of
@@ -29,7 +29,7 @@ struct FlipExposures {
     /// Exposures in stops; `stop` is `start` or more. The tone curve maps the largest luminance of the
     /// reference to 0.85 at `start`, and its median luminance to 0.85 at `stop`.
     double start = 0, stop = 0;
-    int count = 2; ///< 2 or more
+    int count = 2; ///< number of exposures: `stop` - `start`, rounded up, at least 2
 };
 /// Returns the exposures of HDR-FLIP for a reference picture in linear Rec. 709. A median below 2^-20 of the
 /// largest luminance counts as 2^-20 of it. Returns the defaults if the picture is black or empty.

@@ -17,7 +17,7 @@ namespace prt {
 /// Finds the lightmap texels of points on the triangles of a scene. Immutable, thread-safe.
 class LightmapLookup {
 public:
-    /// Keeps references to `scene` and `layout`, which must belong together.
+    /// Keeps references to `scene` and `layout`, which must belong together and outlive this object.
     LightmapLookup(const Scene& scene, const LightmapLayout& layout);
 
     /// Returns the four texels and weights of the bilinear sample at a point of a triangle. Texels are
@@ -39,7 +39,8 @@ private:
 };
 
 /// Returns the bilinear samples of `values` [layout.texels()] at the vertices of `scene`:
-/// [receivers of the scene]. If several primitives share vertices, the last one determines the map.
+/// [receivers of the scene]. If several primitives share vertices, the last one determines the map and the UV
+/// set.
 std::vector<glm::vec3> at_vertices(const Scene& scene, const LightmapLayout& layout,
                                    std::span<const glm::vec3> values);
 

@@ -55,14 +55,16 @@ struct Picture {
     /// Transfer or lightmaps that replace `radiance`; by default not set.
     LitInShader in_shader;
     /// Suns whose direct light is not included in `radiance`. The renderer adds this light at each pixel,
-    /// with shadows. Empty: no suns. The OpenGL renderer supports at most kMaxShadowedSuns suns.
+    /// with shadows, except on surfaces with a medium (`has_medium`): all of their sun light is indirect.
+    /// Empty: no suns. The OpenGL renderer supports at most kMaxShadowedSuns suns.
     std::span<const Sun> suns = {};
 
     /// [materials] factor on Emission::radiance; empty: surfaces emit no light.
     std::span<const glm::vec3> emission = {};
 
-    /// Whether the radiance is multiplied by the base color, and transparent surfaces are blended. False to
-    /// show colors that visualise a number.
+    /// Whether renderers multiply the radiance by the base color, blend surfaces of AlphaMode::blend, and cut
+    /// holes into surfaces of AlphaMode::mask. False serves to show colors that visualise a number: all
+    /// surfaces are then opaque.
     bool textured = true;
     Background background;
 
@@ -74,7 +76,7 @@ struct Picture {
 /// Returns the factor on the emission of each material, [materials of the scene], for Picture::emission. The
 /// factor of a material is the strength of the lamp in `layout` that contains the material. It is 1 if no
 /// lamp contains the material, or if `lamps` is empty. `lamps`: strength or color of each lamp,
-/// [layout.lamps()].
+/// [layout.lamps()] or empty.
 std::vector<glm::vec3> emission_strengths(const Scene& scene, const TransferLayout& layout,
                                           std::span<const glm::vec3> lamps);
 

@@ -10,13 +10,14 @@
 
 namespace prt {
 
-/// Returns the mean of two pictures, pixel by pixel. Throws `Error` if their sizes differ.
+/// Returns the mean of two pictures, pixel by pixel. Throws `Error` if their numbers of pixels differ.
 Image mean_of(const std::array<Image, 2>& halves);
 
 /// Returns an estimate of the relative L2 error that noise causes in mean_of(halves): the root of the
 /// expected squared error of RGB over the squared reference, a fraction. Uses only the pixels for which
 /// `surfaces` [height][width] is true. `halves`: two independent, unbiased pictures of the same view, linear
-/// Rec. 709. Returns 0 if these pixels are black or missing.
+/// Rec. 709. Returns 0 if the sum of the products of the halves over these pixels is not positive, for
+/// example if all are black. Throws `Error` if the halves and `surfaces` have different numbers of pixels.
 double noise_of(const std::array<Image, 2>& halves, const std::vector<bool>& surfaces);
 
 /// Side in pixels of the square blocks over which `picture_error` averages luminance for contrast errors.
@@ -43,16 +44,16 @@ struct PictureError {
 
 /// Returns the relative L2 error of `picture` without the noise of the reference: the root of the squared
 /// error of RGB over the squared reference. Uses only the pixels for which `surfaces` [height][width] is
-/// true. `halves`: two independent, unbiased pictures a and b of the same size, whose expected value is the
-/// reference. For a pixel p of `picture`, the mean of (p - a)(p - b) estimates the squared error. Returns 0
-/// if this estimate or the squared reference is not positive.
+/// true. `halves`: two independent, unbiased pictures a and b, whose expected value is the reference. All
+/// pictures must have the size of `surfaces`. For a pixel p of `picture`, the mean of (p - a)(p - b)
+/// estimates the squared error. Returns 0 if this estimate or the squared reference is not positive.
 double relative_l2(const Image& picture, const std::array<Image, 2>& halves,
                    const std::vector<bool>& surfaces);
 
 /// Computes all errors of `picture` against the reference `halves`: two independent, unbiased pictures of
 /// equal size. All pictures are linear Rec. 709. `surfaces`: [height][width], whether a pixel shows a surface
-/// and not the background. `options`: for FLIP. Throws `Error` if the sizes of `picture` and
-/// `halves` differ, a picture is empty, or a value is not finite.
+/// and not the background. `options`: for FLIP. Throws `Error` if the sizes of `picture`, `halves` and
+/// `surfaces` differ, a picture is empty, or a value is not finite.
 PictureError picture_error(const Image& picture, const std::array<Image, 2>& halves,
                            const std::vector<bool>& surfaces, const FlipOptions& options = {});
 

@@ -35,13 +35,15 @@ Texture make_texture(Image8 image, TextureEncoding encoding = TextureEncoding::s
 /// Returns the linear color and alpha of `texture` at `uv`, each 0..1, filtered trilinearly. `use`: only its
 /// wrap modes are used; apply use.transform to `uv` before. `uv`: texture coordinates of glTF, origin at the
 /// top left of the image. `lod`: level of detail; 0 is the finest level; clamped to the existing levels.
-/// `texture` must be loaded. Returns black with alpha 1 if `uv` is not finite.
+/// `texture` must be loaded. Returns black with alpha 1 if `uv` is not finite, or is 1e9 texels or more from
+/// the origin.
 glm::vec4 sample(const Texture& texture, const TextureUse& use, const glm::vec2& uv, float lod);
 
-/// Treatment of missing or damaged images in `load_textures`.
+/// Treatment of missing, damaged or unsupported images in `load_textures`.
 enum class BadTextures {
     error,  ///< throw an `Error` with the name of the image
-    ignore, ///< leave the texture empty; materials that use it are drawn with their factors only
+    ignore, ///< leave the texture empty: renderers use only the factor that it multiplies, and show no
+            ///< emission if it is a texture of emission
 };
 
 /// Purpose for which textures are needed. A texture is never needed if no primitive uses its material.
@@ -50,7 +52,8 @@ enum class TextureNeeds {
                 ///< diffuse transmission; textures of diffuse transmission and of glass
     visibility, ///< textures of `shadows`, and of emission
     pictures,   ///< base color and emission of all surfaces, nothing else
-    all,        ///< textures of `visibility`, base color of all surfaces, and the metallic factor
+    all,        ///< textures of `visibility`, base color of all surfaces, and texture of the metallic
+                ///< factor
 };
 
 /// Returns the images that the surfaces of `scene` need for purpose `needs`: index into Scene::images, and
@@ -63,8 +66,8 @@ bool is_missing(const TextureUse& use, std::span<const Texture> textures);
 
 /// Decodes the images that `scene` needs for purpose `needs`, and builds their mip chains. Returns one
 /// texture per element of Scene::images; textures that are not needed have no levels. `bad`: whether a
-/// missing or damaged image throws `Error`, or its texture stays without levels. Always throws `Error` if the
-/// decoded images need more memory than 192 MB plus 64 times the size of their files.
+/// missing, damaged or unsupported image throws `Error`, or its texture stays without levels. Always throws
+/// `Error` if the decoded images need more memory than 192 MB plus 64 times the size of their files.
 std::vector<Texture> load_textures(const Scene& scene, BadTextures bad = BadTextures::error,
                                    TextureNeeds needs = TextureNeeds::all);
 

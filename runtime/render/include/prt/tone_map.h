@@ -22,7 +22,7 @@ enum class ToneMap {
 };
 
 /// Returns the exposure for `tone_mapped`: the factor that scales the mean luminance of `light` over all
-/// directions to 0.25. Returns 1 if this mean is not positive.
+/// directions to 0.25. Returns 1 if this mean is not positive. `light` must have at least one band.
 float automatic_exposure(const Light& light);
 
 /// Returns the means over blocks of `samples` x `samples` pixels of `image`: [height / samples]

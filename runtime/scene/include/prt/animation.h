@@ -38,7 +38,7 @@ struct AnimationChannel {
     std::size_t node = 0; ///< index of the animated node in the file
     AnimatedPart part = AnimatedPart::translation;
     Interpolation interpolation = Interpolation::linear;
-    std::vector<float> times; ///< [keys] seconds in ascending order; at least one
+    std::vector<float> times; ///< [keys] seconds, never decreasing; at least one
     /// [keys] xyz and 0 for translation (metres) and scale (factors), or quaternions xyzw for rotation. With
     /// Interpolation::cubic_spline [keys][3]: in-tangent, value and out-tangent of each key.
     std::vector<glm::vec4> values;
@@ -47,10 +47,10 @@ struct AnimationChannel {
 /// An animation: channels that play together.
 struct Animation {
     std::string name;    ///< name in the file; may be empty
-    double duration = 0; ///< seconds, latest time of a key of all channels; 0 without channels
+    double duration = 0; ///< latest time of a key in `channels`, seconds; 0 without channels
     double speed = 0;    ///< walking speed along +Z in metres per second at which the feet do not slide, from
                          ///< extras.speed of the animation; 0: the file has no value in 0..1000
-    std::vector<AnimationChannel> channels; ///< channels of morph target weights are left out
+    std::vector<AnimationChannel> channels; ///< without those of morph targets, and those without a node
 };
 
 /// Returns the value of a channel at time `seconds`: xyz and 0 for translation and scale, or a unit
@@ -71,8 +71,8 @@ struct Skin {
 struct MovingVertices {
     std::size_t node = 0; ///< index in the file of the node that draws the vertices
     int skin = -1;        ///< index into AnimatedScene::skins; -1: no skin
-    /// [vertices] positions in metres, and unit normals, in the frame of the mesh: before node and joint
-    /// matrices, after morph targets. A normal is 0 if it is undefined.
+    /// [vertices] positions and unit normals in the frame of the mesh: before node and joint matrices, after
+    /// morph targets. A normal is 0 if it is undefined.
     std::vector<glm::vec3> positions, normals;
     std::size_t influences = 1; ///< number of matrices per vertex
     /// [vertices][influences] indices into the result of AnimatedScene::matrices for this array. Empty
@@ -97,9 +97,9 @@ bool has_animations(const GltfDocument& document);
 class AnimatedScene {
 public:
     /// Reads the scene and its animations; keeps no reference to `document`. Throws `Error`, whose message
-    /// contains the file and the location in it: for joints and nodes that do not exist, joint weights that
-    /// are negative, key times that are not finite or decrease, key values that are not finite or of a wrong
-    /// number, and channels of a node that has a matrix. Also throws the errors of `extract_scene`.
+    /// contains the path of the file, if a skin, a joint weight or an animation is invalid, if a channel
+    /// animates a node that has a matrix, or if the keyframes need too much memory for the size of the file.
+    /// Also throws the errors of `extract_scene`.
     explicit AnimatedScene(const GltfDocument& document);
 
     /// Returns the scene in the pose of the file, equal to the result of `extract_scene`.

@@ -10,7 +10,8 @@
 namespace prt {
 
 /// Returns `document` as a .glb file in memory, with all data: the bytes that `save_glb` writes for the same
-/// arguments. `compression`: of vertex and index data. Throws `Error` if the file would exceed 4 GB.
+/// arguments. `compression`: of vertex and index data. Throws `Error` if the file would exceed 4 GB, or if
+/// `document` is damaged.
 std::vector<std::byte> encode_glb(const GltfDocument& document,
                                   BufferCompression compression = BufferCompression::none);
 

@@ -14,15 +14,17 @@ enum class GlDevice {
 };
 
 /// An OpenGL 4.5 core context without a visible window. EGL creates the context without a display: on a GPU,
-/// otherwise on Mesa's surfaceless platform, otherwise on a software device. If EGL fails or is missing, GLFW
-/// (if the library is built with it) creates a hidden window, which needs a display. A context can be current
-/// on one thread at a time.
+/// otherwise (only for GlDevice::any) on Mesa's surfaceless platform or on a software device. If EGL fails or
+/// is missing, GLFW (if the library is built with it) creates a hidden window. GLFW needs a display, and the
+/// main thread must then create and destroy the context. A context can be current on one thread at a time.
 class GlContext {
 public:
-    /// Creates a context and makes it current on this thread. Returns null on failure. If `why` is not null,
-    /// a failure sets `*why` to one line that lists the attempts and their errors.
+    /// Creates a context and makes it current on this thread. Returns null on failure; this thread may then
+    /// have no current context. If `why` is not null, a failure sets `*why` to one line that lists the
+    /// attempts and their errors.
     static std::unique_ptr<GlContext> create(GlDevice device, std::string* why = nullptr);
-    /// Destroys the context. If the context is current on this thread, no context is current afterwards.
+    /// Destroys the context. If the context is current on this thread, no context is current afterwards. The
+    /// destructor of a GLFW context also releases any other GLFW context that is current on this thread.
     ~GlContext();
     GlContext(const GlContext&) = delete;
     GlContext& operator=(const GlContext&) = delete;

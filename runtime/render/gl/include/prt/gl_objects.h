@@ -43,7 +43,7 @@ private:
 
 /// Creates a buffer of fixed size and fills it with a copy of `bytes`. If `bytes` is empty, the buffer
 /// contains four zero bytes. `glNamedBufferSubData` can change the contents. Throws `GpuOutOfMemory` if GPU
-/// memory runs out.
+/// memory runs out, and the other errors of `check_gl`.
 GlObject make_buffer(std::span<const std::byte> bytes);
 /// Creates a buffer of fixed size and fills it with a copy of `values`, like `make_buffer` for bytes.
 template <class T>
@@ -52,10 +52,11 @@ GlObject make_buffer(std::span<const T> values) {
 }
 
 /// Creates a buffer of `bytes` bytes, at least 4, with undefined contents. Shaders can write it; the CPU
-/// cannot. Throws `GpuOutOfMemory` if GPU memory runs out.
+/// cannot. Throws `GpuOutOfMemory` if GPU memory runs out, and the other errors of `check_gl`.
 GlObject make_buffer_of(std::size_t bytes);
 /// Copies the first `to.size()` bytes of `buffer` into `to`. If shaders wrote the buffer, the caller must
-/// issue glMemoryBarrier before. Throws the errors of `check_gl(what)`.
+/// issue glMemoryBarrier before. The buffer must have at least `to.size()` bytes. Throws the errors of
+/// `check_gl(what)`.
 void read_buffer(const GlObject& buffer, std::span<std::byte> to, const char* what);
 /// Copies the start of `buffer` into the values `to`, like `read_buffer` for bytes.
 template <class T>
@@ -74,13 +75,12 @@ GlObject make_framebuffer();
 /// are embedded in the library, for example "scene.vert". `fragment` may be empty: the program then has only
 /// a vertex shader, for transform feedback. `defines`: complete #define lines before the text of each shader.
 /// `captured`: the output of the vertex shader that transform feedback records; null: no output. Throws
-/// `Error` with the message of the driver if compilation or linking fails.
+/// `Error` if a file does not exist, and, with the message of the driver, if compilation or linking fails.
 GlObject make_program(const std::string& vertex, const std::string& fragment, const std::string& defines = "",
                       const char* captured = nullptr);
 
 /// Builds a compute program. `compute`: name of a file in shaders/, which is embedded in the library.
-/// `defines`: complete #define lines before its text. Throws `Error` with the message of the driver if
-/// compilation or linking fails.
+/// `defines`: complete #define lines before its text. Throws the errors of `make_program`.
 GlObject make_compute_program(const std::string& compute, const std::string& defines = "");
 
 /// Returns the location of the uniform `name`; -1 if the program does not have this uniform. OpenGL ignores
@@ -96,8 +96,9 @@ struct GpuOutOfMemory : Error {
     using Error::Error;
 };
 
-/// Checks one error flag of OpenGL (glGetError). Throws `GpuOutOfMemory` if GPU memory ran out, and `Error`
-/// for any other error. `what`: the work that failed, a noun for the message, for example "a texture".
+/// Reads and clears one error flag of OpenGL (glGetError), which an earlier OpenGL call may have set. Throws
+/// `GpuOutOfMemory` if GPU memory ran out, and `Error` for any other error. `what`: the work that failed, a
+/// noun for the message, for example "a texture".
 void check_gl(const char* what);
 
 } // namespace prt

@@ -30,18 +30,20 @@ enum class Blocking {
 
 /// Geometry, textures and materials of a scene on the GPU. For programs whose fragment shader includes
 /// `shaders/surface.glsl`. The fragment shader can also include `shaders/sun_light.glsl` for suns,
-/// `shaders/emission.glsl` for emission, and `shaders/lightmap.glsl` for lightmaps.
+/// `shaders/emission.glsl` for emission, and `shaders/lightmap.glsl` for lightmaps. The functions that draw
+/// change the bound vertex array, textures and storage buffers, and whether OpenGL culls faces.
 class GlScene {
 public:
     /// Uploads the scene and its textures. Keeps a reference to `scene`, but not to `textures`. `textures`:
     /// result of load_textures, [images of the scene]; empty: materials are drawn without textures. Throws
-    /// `Error` if GPU memory runs out.
+    /// `Error` if GPU memory runs out, or if the device does not support the size of a texture.
     GlScene(const Scene& scene, std::span<const Texture> textures);
 
     /// Returns the scene that was passed to the constructor.
     const Scene& scene() const { return scene_; }
     /// Creates vertex arrays, [Scene::vertex_arrays], with positions, normals and (if there are any) vertex
-    /// colors as attributes PRT_LOCATION_POSITION, _NORMAL and _COLOR of shaders/shared_layout.h.
+    /// colors as attributes PRT_LOCATION_POSITION, _NORMAL and _COLOR of shaders/shared_layout.h. This object
+    /// must exist while they are drawn.
     GlVertexArrays make_vertex_arrays() const;
     /// Makes `buffer` the source of vertex attribute `location` in all `arrays`. `arrays`: result of
     /// make_vertex_arrays. `buffer`: floats, [receivers of the scene][components]; it must exist while
@@ -119,10 +121,11 @@ private:
 
 /// Creates a 2D texture of fixed size with undefined contents. `levels`: number of mip levels, 1 or more.
 /// `format`: sized internal format of OpenGL, for example GL_RGBA8. `width` and `height`: texels of level 0.
-/// Throws `GpuOutOfMemory` if GPU memory runs out, and `Error` if OpenGL rejects the arguments.
+/// Throws `GpuOutOfMemory` if GPU memory runs out, and `Error` if the device does not support the size or
+/// OpenGL reports another error.
 GlObject make_texture_2d(int levels, std::uint32_t format, int width, int height);
-/// Creates a texture with one level from a lat-long image whose center looks at +Z, for background.frag.
-/// Throws `Error` if GPU memory runs out.
+/// Creates a texture with one level from a lat-long image whose center is the direction +Z, for
+/// background.frag. Throws the errors of `make_texture_2d`.
 GlObject make_background(const Image& image);
 
 } // namespace prt

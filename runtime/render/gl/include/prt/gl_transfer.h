@@ -20,25 +20,26 @@ namespace prt {
 class GlTransfer {
 public:
     /// Uploads clusters and weights; keeps no reference to `transfer`. Call `set_light` before drawing.
-    /// Throws `Error` if the weights of a receiver need more vertex attributes than shaders have, or if GPU
-    /// memory runs out.
+    /// Throws `Error` if the layout of the transfer is invalid, if the weights of a receiver need more vertex
+    /// attributes than shaders have, or if GPU memory runs out.
     explicit GlTransfer(const ClusteredTransfer& transfer);
 
     /// Returns the #define lines for shaders that include prt_exit_radiance.glsl. These shaders must pass
     /// positions in metres relative to Scene::origin.
     const std::string& defines() const { return defines_; }
-    /// Computes the constants of all clusters for `lighting` on the CPU, and uploads them. Throws `Error` if
-    /// `lighting` has fewer bands than the transfer, or another number of lamps.
+    /// Computes the constants of all clusters for `lighting` on the CPU, and uploads them. Throws the errors
+    /// of `ClusterLighting::update`.
     void set_light(const Lighting& lighting);
-    /// Makes weights and cluster indices attributes of the vertex array object `vertex_array` (a name of
-    /// OpenGL). Vertex v of the array gets those of receiver first + v. `first`: VertexArray::first_receiver.
+    /// Makes the weights (and the cluster indices, unless they are part of packed weights) attributes of the
+    /// vertex array object `vertex_array` (a name of OpenGL). Vertex v of the array gets those of receiver
+    /// first + v. `first`: VertexArray::first_receiver. Uses the vertex buffer bindings 8 and 9 of the array.
     /// This object must exist while `vertex_array` is drawn.
     void attach(std::uint32_t vertex_array, std::size_t first) const;
     /// Binds the constants, and the table with the layout of each cluster, as storage buffers for subsequent
     /// draws.
     void use() const;
-    /// Returns the size of the data that shaders read in bytes: weights, cluster indices, layouts of the
-    /// clusters and constants.
+    /// Returns the size of the data that shaders read in bytes: weights, cluster indices (unless they are
+    /// part of packed weights), layouts of the clusters and constants.
     std::size_t bytes() const { return bytes_; }
 
 private:

@@ -20,16 +20,18 @@ namespace prt {
 class GlVolume {
 public:
     /// Uploads all data that do not depend on the lighting. Keeps a reference to `volume`, whose weights must
-    /// be packed. `format`: format of the light texture; shaders can filter rgba16 linearly, rgba32 not. The
-    /// light is undefined until `set_light` or `upload`. Throws `Error` if GPU memory runs out, if the device
-    /// does not support 3D textures of this size, if a probe has more words than shaders support, or if the
-    /// driver cannot build the program. Throws the errors of the constructor of VolumeLookup.
+    /// be packed. `format`: format of the light texture, which filters linearly for rgba16 and does not
+    /// filter for rgba32. The light is undefined until `set_light` or `upload`. Throws `Error` if GPU memory
+    /// runs out, if the device does not support 3D textures of this size, if a probe has more words than
+    /// shaders support, or if the driver cannot build the program. Throws the errors of the constructors of
+    /// VolumeRelighter and VolumeLookup.
     explicit GlVolume(const CompressedVolume& volume, VolumeFormat format = VolumeFormat::rgba16);
 
     /// Computes the light texture for `lighting` on the GPU. `sun`: unit direction towards a sun, whose
     /// visibility at each probe is computed, 0..1. The visibility is 0 if `sun` has no value, or if the
-    /// transfer has no `direct` term. Changes the program in use and the bound storage buffers. Throws
-    /// `Error` if `lighting` has fewer bands than the transfer, or another number of lamps.
+    /// transfer has no `direct` term. Magnitudes above 65 504 become 65 504, in both formats. Changes the
+    /// program in use and the bound storage buffers and image units. Throws the errors of
+    /// `ClusterLighting::update`.
     void set_light(const Lighting& lighting, const std::optional<glm::vec3>& sun = {});
     /// Uploads a light texture that the CPU computed, instead of `set_light`. `texels`: result of
     /// relighter().update, [relighter().bytes()]. Throws `Error` if OpenGL reports an error.
@@ -43,7 +45,8 @@ public:
     /// Returns the light texture as floats: [planes · depth][height][width], the size
     /// relighter().atlas().light_texels(). Waits for the GPU. Throws `Error` if OpenGL reports an error.
     std::vector<glm::vec4> read() const;
-    /// Returns the size of all data on the GPU in bytes: weights, clusters, constants and the three textures.
+    /// Returns the size of all data on the GPU in bytes: weights, clusters, constants, indices of the probes
+    /// of each brick, and the three textures.
     std::size_t bytes() const { return bytes_; }
 
 private:
