@@ -90,7 +90,7 @@ Scene extract_scene(const GltfDocument& document);
 /// Writes raw transfer of vertices (PRTKIT_transfer) into `document`, from which `scene` was extracted.
 /// Replaces existing transfer of surfaces. Changes the meshes: a mesh that several nodes draw is copied for
 /// each node, and primitives without normals get flat normals. Call only one function that changes the meshes
-/// per document. Throws `Error` if the copies of meshes are too large.
+/// per document. Throws `Error` if the copies exceed the memory limit of docs/format.md.
 void write_transfer(GltfDocument& document, const Scene& scene, const BakedTransfer& baked);
 
 /// Writes compressed transfer of vertices (PRTKIT_clustered_pca) into `document`, from which `scene` was
@@ -106,8 +106,8 @@ std::optional<BakedTransfer> read_transfer(const GltfDocument& document, const S
 /// Returns the compressed transfer of vertices in `document`, from which `scene` was extracted. Returns no
 /// value if the file has no PRTKIT_clustered_pca. Throws `Error` if the transfer is damaged, too large or of
 /// another version, or if instances share it and the file was read with `Instancing::nodes`
-/// (prt/instances_gltf.h). Also throws if vertices have weights or clusters, but the file has no extension of
-/// prtkit.
+/// (prt/instances_gltf.h). Also throws if the file has attributes _PRT_WEIGHTS_n or _PRT_CLUSTER, but no
+/// extension of prtkit.
 std::optional<CompressedTransfer> read_clustered(const GltfDocument& document, const Scene& scene);
 
 /// Writes vertex colors (attribute COLOR_0, three float32 numbers, linear) into `document`, from which
@@ -158,8 +158,8 @@ std::size_t write_surface_textures(GltfDocument& document, const Scene& scene,
                                    std::span<const SurfaceTexture> textures);
 
 /// Removes the transfer of vertices and lightmaps, the lobes of skinned figures, and PRTKIT_instances from
-/// `document`, with their data, and frees the memory. Keeps PRTKIT_instances if the document has meshes in
-/// the form of `Instancing::separate`. Keeps probe volumes and occlusion volumes.
+/// `document`, with their data, and frees the memory. Keeps PRTKIT_instances if the document was read with
+/// `Instancing::separate`. Keeps probe volumes and occlusion volumes.
 void discard_transfer(GltfDocument& document);
 
 /// Compression of vertex and index data in a .glb file.

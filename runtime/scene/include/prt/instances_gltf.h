@@ -48,7 +48,7 @@ SharedMeshes shared_meshes(const GltfDocument& document, const Scene& scene);
 /// A document in which each shared mesh occurs once: the result of `with_shared_meshes`.
 struct SharedDocument {
     /// The document in the form of `Instancing::separate`: one additional node draws each shared mesh, in the
-    /// mesh's own frame. Contains no transfer.
+    /// mesh's own frame. Contains no transfer of surfaces.
     GltfDocument document;
     std::vector<int> mesh_nodes; ///< [shared meshes] index in `document` of the node that draws the mesh
     std::vector<int> node_of;    ///< [nodes of the source document] index of the node in `document`; -1 if

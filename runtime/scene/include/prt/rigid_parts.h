@@ -28,7 +28,7 @@ struct RigidPart {
 struct RigidPartsOptions {
     /// Minimum diagonal of the bounding box of a part, as a fraction of that of the full scene, 0..1. A
     /// smaller part is merged into the part of its nearest moving ancestor or root, for example a finger into
-    /// its hand. A part without such an ancestor is never merged. 0: no part is merged.
+    /// its hand. A part that moves with a root node is never merged. 0: no part is merged.
     double min_share = 0.12;
 };
 

@@ -183,9 +183,10 @@ struct Scene {
     /// Center of the bounding box of all triangles in the file's world, metres. All positions are relative to
     /// this center, so that a scene far from the world's origin keeps its precision.
     glm::dvec3 origin{0};
-    /// Vertices of the triangles of visible nodes. Receivers are numbered array by array.
+    /// Vertices of `primitives`. Receivers are numbered array by array.
     std::vector<VertexArray> vertex_arrays;
-    std::vector<Primitive> primitives; ///< primitives with triangles of visible nodes, node by node
+    std::vector<Primitive>
+        primitives; ///< triangle primitives of visible nodes, node by node; not points and lines
     std::vector<Material> materials;   ///< materials of the file, then a default `Material` for primitives
                                        ///< without a material
     std::vector<EncodedImage> images;  ///< images of the file, then empty ones for textures without an image

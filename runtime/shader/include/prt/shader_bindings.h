@@ -28,7 +28,7 @@ struct ShaderBinding {
     std::string name = {}; ///< name of the attribute, block, sampler, uniform or output in the shader
     std::string type = {}; ///< type in GLSL, for example "uvec4" or "vec4[]"
     int number = -1; ///< location of an attribute or output, else binding point; -1: the shader states no
-                     ///< number; an application looks up uniforms, blocks and samplers by name
+                     ///< number; uniforms, blocks and samplers are then looked up by name
     std::string content = {}; ///< description of the data, in English, for the application's programmer
 };
 
