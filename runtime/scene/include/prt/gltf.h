@@ -71,6 +71,8 @@ struct GltfOptions {
 /// or an external buffer cannot be read, is damaged or is too large, if the file requires an unsupported
 /// extension, or if it uses a file of GltfOptions::outputs. An image file that cannot be read does not throw
 /// here: it causes a line in Scene::notices, and an `Error` of `load_textures` if its pixels are needed.
+/// Replaces unusable normals and texture coordinates in the document, and removes a fallback
+/// (prt/fallback.h).
 GltfDocument load_gltf(const std::filesystem::path& path, const GltfOptions& options = {});
 
 /// Reads a .gltf or .glb file whose bytes `file` are in memory. `path`: path that the file has or would have,

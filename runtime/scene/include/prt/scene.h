@@ -185,8 +185,7 @@ struct Scene {
     glm::dvec3 origin{0};
     /// Vertices of `primitives`. Receivers are numbered array by array.
     std::vector<VertexArray> vertex_arrays;
-    std::vector<Primitive>
-        primitives; ///< triangle primitives of visible nodes, node by node; not points and lines
+    std::vector<Primitive> primitives; ///< triangle primitives of visible nodes, node by node
     std::vector<Material> materials;   ///< materials of the file, then a default `Material` for primitives
                                        ///< without a material
     std::vector<EncodedImage> images;  ///< images of the file, then empty ones for textures without an image
