@@ -57,18 +57,22 @@ struct GltfOptions {
     double lamp_scale = 1;
     /// Angle in degrees, 0 to 180, for primitives without normals. With a value, reading adds normals to the
     /// document that are smooth across an edge if the normals of its two triangles differ by this angle or
-    /// less. Without a value, `extract_scene` computes flat normals, as glTF requires.
+    /// less; vertices are split at all other edges. Without a value, `extract_scene` computes flat normals,
+    /// as glTF requires.
     std::optional<double> smooth_normals_degrees = {};
     /// Maximum memory in bytes for the extracted scene, with all instances and morph targets. `extract_scene`
-    /// throws `Error` for more. 0: the limit is 256 MB plus 64 times the size of the file and its external
-    /// buffers, so that a small file cannot use all memory.
+    /// throws `Error` for more, and `load_gltf` if the nodes of instances alone need more. 0: the limit is
+    /// 256 MB plus 64 times the size of the file and its external buffers, so that a small file cannot use
+    /// all memory.
     double scene_limit = 0;
 };
 
-/// Reads a .gltf or .glb file with its buffers and encoded images. Throws `Error` if the file cannot be read,
-/// is damaged, or requires an unsupported extension; the message contains the path and the location of the
-/// fault. An image that cannot be read does not throw here: it causes a line in Scene::notices, and an
-/// `Error` of `load_textures` if its pixels are needed.
+/// Reads a .gltf or .glb file with its buffers and encoded images. Throws `Error`, with the path, if the file
+/// or an external buffer cannot be read, is damaged or is too large, if the file requires an unsupported
+/// extension, or if it uses a file of GltfOptions::outputs. An image file that cannot be read does not throw
+/// here: it causes a line in Scene::notices, and an `Error` of `load_textures` if its pixels are needed.
+/// Replaces unusable normals and texture coordinates in the document, and removes a fallback
+/// (prt/fallback.h).
 GltfDocument load_gltf(const std::filesystem::path& path, const GltfOptions& options = {});
 
 /// Reads a .gltf or .glb file whose bytes `file` are in memory. `path`: path that the file has or would have,
@@ -79,37 +83,40 @@ GltfDocument parse_gltf(std::span<const std::byte> file, const std::filesystem::
 
 /// Returns the default scene of the file (scene 0 if there is no default, all nodes if there are no scenes),
 /// flattened: all vertices are in the world, relative to Scene::origin. Every instance of a mesh gets
-/// separate vertices. Skins and morph targets are evaluated in the pose of the file; only the finest levels
-/// of detail are included. Throws `Error` for data out of bounds, positions that are not finite or more than
-/// 1e9 m from the origin, a scene without triangles, and a scene that exceeds GltfOptions::scene_limit.
+/// separate vertices. Skins and morph targets are evaluated in the pose of the file. Hidden nodes, coarser
+/// levels of detail, points and lines are left out. Throws `Error`, with the path, if the nodes, meshes,
+/// skins, materials or lights are invalid, a position is not finite or exceeds kFarthestVertex, the scene has
+/// no triangles, or it exceeds GltfOptions::scene_limit.
 Scene extract_scene(const GltfDocument& document);
 
 /// Writes raw transfer of vertices (PRTKIT_transfer) into `document`, from which `scene` was extracted.
 /// Replaces existing transfer of surfaces. Changes the meshes: a mesh that several nodes draw is copied for
-/// each node, and primitives without normals get flat normals. Call only one function that writes vertex data
-/// per document.
+/// each node, and primitives without normals get flat normals. Call only one function that changes the meshes
+/// per document. Throws `Error` if the copies exceed the memory limit of docs/format.md.
 void write_transfer(GltfDocument& document, const Scene& scene, const BakedTransfer& baked);
 
 /// Writes compressed transfer of vertices (PRTKIT_clustered_pca) into `document`, from which `scene` was
-/// extracted. Replaces existing transfer of surfaces, raw or compressed. Changes the meshes: a mesh that
-/// several nodes draw is copied for each node, and primitives without normals get flat normals. Call only one
-/// function that writes vertex data per document.
+/// extracted. Replaces existing transfer of surfaces, raw or compressed. Changes the meshes as
+/// `write_transfer` does; call only one function that changes the meshes per document. Throws the errors of
+/// `write_transfer`.
 void write_clustered(GltfDocument& document, const Scene& scene, const CompressedTransfer& compressed);
 
 /// Returns the raw transfer of vertices in `document`, from which `scene` was extracted. Returns no value if
-/// the file has no PRTKIT_transfer. Throws `Error` if the transfer is damaged. Also throws if instances in
-/// the file share transfer and the file was read with `Instancing::nodes` (prt/instances_gltf.h).
+/// the file has no PRTKIT_transfer. Throws `Error` if the transfer is damaged, too large or of another
+/// version, or if instances share it and the file was read with `Instancing::nodes` (prt/instances_gltf.h).
 std::optional<BakedTransfer> read_transfer(const GltfDocument& document, const Scene& scene);
 /// Returns the compressed transfer of vertices in `document`, from which `scene` was extracted. Returns no
-/// value if the file has no PRTKIT_clustered_pca. Throws `Error` if the transfer is damaged. Also throws if
-/// instances in the file share transfer and the file was read with `Instancing::nodes`
-/// (prt/instances_gltf.h).
+/// value if the file has no PRTKIT_clustered_pca. Throws `Error` if the transfer is damaged, too large or of
+/// another version, or if instances share it and the file was read with `Instancing::nodes`
+/// (prt/instances_gltf.h). Also throws if the file has attributes _PRT_WEIGHTS_n or _PRT_CLUSTER, but no
+/// extension of prtkit.
 std::optional<CompressedTransfer> read_clustered(const GltfDocument& document, const Scene& scene);
 
 /// Writes vertex colors (attribute COLOR_0, three float32 numbers, linear) into `document`, from which
 /// `scene` was extracted. Every glTF viewer shows the colors, multiplied by the base color. `colors`:
-/// [receivers of `scene`]. Replaces existing vertex colors and their alpha. Call only one function that
-/// writes vertex data per document; to write more, save the document and read the file again.
+/// [receivers of `scene`]. Replaces existing vertex colors and their alpha. Changes the meshes as
+/// `write_transfer` does; call only one function that changes the meshes per document. To write more, save
+/// the document and read the file again. Throws the errors of `write_transfer`.
 void write_vertex_colors(GltfDocument& document, const Scene& scene, std::span<const glm::vec3> colors);
 
 /// Attribute of all vertices of a scene, as float32 numbers.
@@ -125,9 +132,9 @@ struct VertexAttribute {
 VertexAttribute shaded_vertex_colors(const Scene& scene, std::span<const float> factors);
 
 /// Writes `attributes` of vertices into `document`, from which `scene` was extracted. Replaces existing
-/// attributes of the same name. Changes the meshes: a mesh that several nodes draw is copied for each node,
-/// and primitives without normals get flat normals. Call only one function that writes vertex data per
-/// document; to write more, save the document and read the file again.
+/// attributes of the same name. Changes the meshes as `write_transfer` does; call only one function that
+/// changes the meshes per document. To write more, save the document and read the file again. Throws the
+/// errors of `write_transfer`.
 void write_vertex_attributes(GltfDocument& document, const Scene& scene,
                              std::span<const VertexAttribute> attributes);
 
@@ -144,13 +151,17 @@ struct SurfaceTexture {
 /// Embeds `textures` in `document`, from which `scene` was extracted. The materials of the primitives get the
 /// occlusion as occlusionTexture, and the bent normals as extras.prtkit.bentNormalTexture. If primitives with
 /// different textures, or without one, share a material, each texture gets a copy of the material, also in
-/// KHR_materials_variants. Replaces existing occlusionTextures and returns the number of materials that had
-/// one. Throws `Error` if bent normals are written and `extras` of a material is not an object.
+/// KHR_materials_variants. Primitives without a material get a new one. Replaces existing occlusionTextures
+/// and returns the number of materials, with their copies, that had one. Changes the meshes as
+/// `write_transfer` does; call only one function that changes the meshes per document. Throws the errors of
+/// `write_transfer`, and `Error` if bent normals are written and `extras` or extras.prtkit of a material is
+/// not an object.
 std::size_t write_surface_textures(GltfDocument& document, const Scene& scene,
                                    std::span<const SurfaceTexture> textures);
 
-/// Removes the transfer of vertices and lightmaps, and the lobes of skinned figures, with their data from
-/// `document`, and frees the memory. Keeps probe volumes and occlusion volumes.
+/// Removes the transfer of vertices and lightmaps, the lobes of skinned figures, and PRTKIT_instances from
+/// `document`, with their data, and frees the memory. Keeps PRTKIT_instances if the document was read with
+/// `Instancing::separate`. Keeps probe volumes and occlusion volumes.
 void discard_transfer(GltfDocument& document);
 
 /// Compression of vertex and index data in a .glb file.
@@ -160,8 +171,9 @@ enum class BufferCompression {
             ///< only prtkit reads is used if the file becomes smaller
 };
 
-/// Writes `document` to the .glb file `path`, with all buffers and images embedded. Replaces an existing file
-/// only if writing succeeds. Throws `Error` if the file cannot be written, or if it would exceed 4 GB.
+/// Writes `document` to the .glb file `path`, with all buffers and all images that could be read embedded.
+/// Replaces an existing file only if writing succeeds. Throws `Error` if the file cannot be written, or if it
+/// would exceed 4 GB.
 void save_glb(const GltfDocument& document, const std::filesystem::path& path,
               BufferCompression compression = BufferCompression::none);
 

@@ -13,8 +13,8 @@
 
 namespace prt {
 
-/// A node that draws a mesh, and the node's transform to the world: a rotation, a uniform scale and a
-/// translation.
+/// A node that draws a mesh, with the rotation and the uniform scale of its transform to the world. The
+/// translation is not stored.
 struct MeshPlacement {
     int node = 0;           ///< index in the nodes of the GltfDocument
     glm::dmat3 rotation{1}; ///< from the mesh's frame to the world's
@@ -48,7 +48,7 @@ SharedMeshes shared_meshes(const GltfDocument& document, const Scene& scene);
 /// A document in which each shared mesh occurs once: the result of `with_shared_meshes`.
 struct SharedDocument {
     /// The document in the form of `Instancing::separate`: one additional node draws each shared mesh, in the
-    /// mesh's own frame. Contains no transfer.
+    /// mesh's own frame. Contains no transfer of surfaces.
     GltfDocument document;
     std::vector<int> mesh_nodes; ///< [shared meshes] index in `document` of the node that draws the mesh
     std::vector<int> node_of;    ///< [nodes of the source document] index of the node in `document`; -1 if
@@ -66,12 +66,13 @@ struct StoredInstances {
     std::vector<InstanceBox> boxes;       ///< [shared meshes] bounding box of the mesh, in the mesh's frame
 };
 /// Writes `instances` into `document`, a result of `with_shared_meshes`, with the same numbers of instances
-/// and meshes. Each number of the factors is rounded to one byte. Throws `Error` if a number is not finite or
-/// its magnitude exceeds `kMaxInstanceFactor`.
+/// and meshes. Each number of the factors is rounded to one byte. Throws `Error` if a number of the factors
+/// is not finite or its magnitude exceeds `kMaxInstanceFactor`. Does not check the boxes; files need half
+/// sizes greater than 0.
 void write_instances(GltfDocument& document, const StoredInstances& instances);
 
 /// Returns whether instances of the file share transfer and `document` was read with `Instancing::nodes`. If
-/// true, `read_instanced` reads the transfer of the file; `read_transfer` and `read_clustered` throw `Error`.
+/// true, `read_instanced` reads the transfer of the file; `read_transfer` and `read_clustered` cannot.
 bool shares_instances(const GltfDocument& document);
 
 /// Returns whether instances of the file share transfer (PRTKIT_instances). The result does not depend on the
@@ -90,8 +91,9 @@ struct FileInstance {
 };
 /// Returns the instances of the file in ascending order of their nodes. `document` was read with
 /// `Instancing::nodes`, and `scene` was extracted from it. `stored` is the scene of the same file read with
-/// `Instancing::separate`. Throws `Error` if PRTKIT_instances is missing or damaged, if a node mirrors its
-/// mesh or scales it non-uniformly, and if the vertices of `scene` and `stored` do not match.
+/// `Instancing::separate`. `holds_instances(document)` must be true. Throws `Error` if PRTKIT_instances is
+/// damaged or of another version, if an instance has a mirrored, sheared, singular or non-uniform scale, or
+/// if the numbers of vertices in `scene` and `stored` do not match.
 std::vector<FileInstance> read_instances(const GltfDocument& document, const Scene& scene,
                                          const Scene& stored);
 
@@ -109,7 +111,8 @@ struct InstancedModel {
 };
 /// Returns the contents of the file of `document`. `document` must be read with `Instancing::nodes`, `scene`
 /// must be extracted from it, and `shares_instances(document)` must be true. `path` is the name of the file,
-/// for messages. Throws the errors of `read_instances`, and `Error` if the transfer is missing or damaged.
+/// for messages. Throws the errors of `parse_gltf`, `extract_scene`, `read_transfer`, `read_clustered` and
+/// `read_instances`, and `Error` if the file has no transfer of vertices.
 InstancedModel read_instanced(const GltfDocument& document, const Scene& scene,
                               const std::filesystem::path& path);
 
@@ -122,7 +125,7 @@ std::vector<RelitInstance> relit_instances(const InstancedModel& model,
                                            const glm::dvec3& seen_from = glm::dvec3(0));
 /// Returns `instances` in the form that InstanceRelighter needs, in the same order. `transfer` has the
 /// receivers of `stored`; `stored` is the scene that `FileInstance::stored_arrays` refers to. Boxes of the
-/// result are relative to `stored.origin`.
+/// result are relative to `stored.origin` - `seen_from`.
 std::vector<RelitInstance> relit_instances(std::span<const FileInstance> instances, const Scene& stored,
                                            const ClusteredTransfer& transfer,
                                            const glm::dvec3& seen_from = glm::dvec3(0));
@@ -130,13 +133,14 @@ std::vector<RelitInstance> relit_instances(std::span<const FileInstance> instanc
 /// Returns areas in m², [receivers of `stored`]: the area of the receiver itself, or for a receiver of a
 /// shared mesh the sum of its areas in all instances at their scales. `document` was read with
 /// `Instancing::separate`, and `stored` was extracted from it. Throws `Error` if a sum exceeds 1e18 times the
-/// area in the mesh's frame.
+/// area in the mesh's frame, or if the hierarchy of nodes or EXT_mesh_gpu_instancing is damaged.
 std::vector<float> instanced_areas(const GltfDocument& document, const Scene& stored);
 
 /// Returns the transfer of all receivers of `scene`, in the world's frame. The transfer of an instance is
 /// computed from the transfer of its mesh and from its factors. `transfer` has the receivers of `stored`. The
 /// other arguments are those of `read_instances`. `threads` 0: all hardware threads. Throws the errors of
-/// `read_instances`, and `Error` if the result exceeds the memory limit of docs/format.md.
+/// `read_instances` and of the constructor of `SharedTransfer`, and `Error` if the result exceeds the memory
+/// limit of docs/format.md.
 Transfer expanded(const GltfDocument& document, const Scene& scene, const Scene& stored,
                   const Transfer& transfer, int threads = 0);
 

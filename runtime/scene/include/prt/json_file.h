@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 namespace json {
 
 /// Returns the content of a JSON file. Throws `Error` if the file cannot be read, is not valid JSON, or
-/// contains a number that does not fit into a double. Messages about invalid JSON do not contain the file
+/// contains a number that does not fit into a double. Messages about the content do not contain the file
 /// name.
 Json read_json(const std::filesystem::path& path);
 
@@ -38,7 +38,7 @@ std::vector<float> numbers(const Json& object, const char* key, std::size_t coun
 /// missing, is not a list of numbers, has another length, or contains a number that is not finite as a float.
 glm::vec3 vector_of(const Json& object, const char* key);
 /// Returns member `key` of `object`, a list of three numbers, scaled to a vector of length 1. Throws the
-/// errors of `vector_of`, and `Error`, with the key, if the vector in the file has length 0.
+/// errors of `vector_of`, and `Error`, with the key, if the length of the vector in the file is 0.
 glm::vec3 direction_of(const Json& object, const char* key);
 
 } // namespace json

@@ -15,7 +15,7 @@ namespace prt {
 /// A coarser level of detail of a `LeveledNode`. If the object is small in the picture, the node of the level
 /// and its descendants replace the `LeveledNode` and its descendants.
 struct CoarserLevel {
-    int level = 1;    ///< 1 for the finest of the coarser levels, 2 for the next one, and so on
+    int level = 1;    ///< 1 for the finest coarser level, 2 for the next, and so on; ignored levels count
     int node = 0;     ///< index in the nodes of the GltfDocument
     std::string name; ///< for messages: "node 3 'Rock_LOD1'"; "node 3" if it has no name
     std::vector<std::size_t> primitives; ///< indices into the primitives of LeveledScene::scene; at least one
@@ -34,7 +34,7 @@ struct LeveledNode {
 /// A scene with the coarser levels of its nodes.
 struct LeveledScene {
     /// The scene of `extract_scene`, with the same origin; the vertex arrays and primitives of all coarser
-    /// levels are appended. A level that is not in the glTF scene has the transform of the parent of its
+    /// levels are appended. A level that is not in the glTF scene counts as a child of the parent of its
     /// level 0.
     Scene scene;
     std::size_t finest_receivers = 0, ///< number of receivers of `extract_scene`, which come first in `scene`
@@ -49,15 +49,15 @@ struct LeveledScene {
 
 /// Returns whether MSFT_lod or node names define coarser levels for visible nodes of the scene. Does not read
 /// vertices; therefore the result is also true for levels without triangles, which `extract_levels` ignores.
-/// Throws `Error` if MSFT_lod is invalid.
+/// Throws `Error` if MSFT_lod or the hierarchy of nodes is invalid.
 bool has_levels(const GltfDocument& document);
 
 /// Returns the scene of `document` with its coarser levels. Throws the errors of `extract_scene`, also for
 /// vertices and triangles of coarser levels.
 LeveledScene extract_levels(const GltfDocument& document);
 
-/// Returns whether the file has raw or compressed transfer for at least one primitive of a coarser level.
-/// `scene` was extracted from `document` by `extract_levels`.
+/// Returns whether the file has raw or compressed transfer of vertices, or lobes, for at least one primitive
+/// of a coarser level. `scene` was extracted from `document` by `extract_levels`.
 bool levels_have_transfer(const GltfDocument& document, const LeveledScene& scene);
 
 /// Returns the number of vertices of the vertex arrays that `primitives` use; an array that several

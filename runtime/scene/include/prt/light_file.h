@@ -23,8 +23,9 @@ LightFile read_light_file(const std::filesystem::path& path);
 /// the file cannot be read, is not a valid light file, or has fewer than `order` bands.
 LightFile read_light_file(const std::filesystem::path& path, int order);
 
-/// Returns the sum of the sky and of all suns as SH coefficients, with the order of the sky. Throws `Error`
-/// if a sun is invalid (`as_light`) or the sum is not finite.
+/// Returns the sum of the sky and of all suns as SH coefficients, with the order of the sky. Throws the
+/// errors of `as_light`, and `Error` if a sum with a sun is not finite. Without suns, the result is the sky,
+/// unchecked.
 Light all_light(const LightFile& file);
 
 } // namespace prt

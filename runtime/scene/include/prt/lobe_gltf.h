@@ -26,12 +26,13 @@ struct StoredLobes {
 };
 
 /// Writes lobes into `document`, from which `scene` was extracted. Removes all other transfer of surfaces
-/// (vertices and lightmaps), because other transfer is valid for a single pose only. Throws the errors of
-/// `check_lobes`.
+/// (vertices and lightmaps), because other transfer is valid for a single pose only. Changes the meshes as
+/// `write_transfer` does; call only one function that changes the meshes per document. Throws the errors of
+/// `check_lobes` and `write_transfer`.
 void write_lobes(GltfDocument& document, const Scene& scene, const StoredLobes& lobes);
 
 /// Returns the lobes in the file; empty if the file has no lobes. `scene` was extracted from `document`.
-/// Throws `Error` if the lobes are damaged.
+/// Throws `Error` if the lobes are damaged, too large or of another version.
 std::optional<StoredLobes> read_lobes(const GltfDocument& document, const Scene& scene);
 
 } // namespace prt

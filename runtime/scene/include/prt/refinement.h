@@ -38,17 +38,20 @@ Refinement no_refinement(const Scene& scene);
 
 /// Returns `scene` with `refinement` applied. A new vertex has the means of the positions, texture
 /// coordinates and colors of both ends, and the normalised mean of both normals. If the normals are opposite,
-/// the new vertex has the normal of the first end. Surfaces keep their shape, because triangles stay flat.
+/// the new vertex has the normal of the first end. VertexArray::source becomes empty in arrays with new
+/// vertices, and receivers are renumbered array by array. Surfaces keep their shape, because triangles stay
+/// flat.
 Scene refined(const Scene& scene, const Refinement& refinement);
 
 /// Returns `document` with `refinement` applied. `scene` must be extracted from `document`. Each attribute of
 /// a new vertex, also in morph targets, is the mean of the attributes of both ends, in the number type of the
-/// file, with these exceptions. Normals and tangents of vertices are normalised means. Joints are those with
-/// the largest weights among the joints of both ends. Integer attributes of applications are copied from the
-/// first end. Positions, and texture coordinates in integers that are not normalised, become float32, so that
-/// surfaces which touch each other still touch. Each node gets a separate copy of a shared mesh, primitives
-/// without normals get flat normals, and transfer is removed. Throws `Error`, with the file name, if
-/// `document` is damaged or becomes too large.
+/// file, with these exceptions. Normals and tangents of vertices are normalised means; if the ends are
+/// opposite, they are those of the first end. Joints are those with the largest weights among the joints of
+/// both ends; the sum of their weights is 1. Other integer attributes that are not normalised are copied from
+/// the first end. Positions, and texture coordinates in integers that are not normalised, become float32, so
+/// that surfaces which touch each other still touch. Each node gets a separate copy of a shared mesh,
+/// primitives without normals get flat normals, and transfer is removed. Throws `Error`, with the file name,
+/// if `document` is damaged or becomes too large.
 GltfDocument refined(GltfDocument document, const Scene& scene, const Refinement& refinement);
 
 } // namespace prt

@@ -26,9 +26,9 @@ ClusteredReceivers reordered(const ClusteredReceivers& receivers, std::span<cons
 void reorder_vertices(GltfDocument& document, const Scene& scene, std::span<const std::uint32_t> order);
 
 /// Returns the index in `other` of every receiver of `scene`, [receivers of `scene`]. Receivers match if
-/// their positions and normals are equal bit by bit and their vertex arrays have the same content. Equal
-/// receivers of an array match in their order. Throws `Error` if a receiver of either
-/// scene has no match.
+/// their positions, relative to Scene::origin, and their normals are equal bit by bit and their vertex arrays
+/// contain the same receivers in any order. Equal receivers of an array match in their order. Throws `Error`
+/// if a receiver of either scene has no match.
 std::vector<std::uint32_t> matching_receivers(const Scene& scene, const Scene& other);
 
 /// Returns a copy of `transfer` in which the receivers have the order of `scene`. In `transfer` the receivers
@@ -43,7 +43,7 @@ struct VertexReuse {
     /// maximum is 3.
     double transforms_per_triangle = 0;
     /// Bytes of positions that are read from memory in cache lines of 64 bytes, divided by the size of all
-    /// positions. 1 is ideal.
+    /// positions that triangles use. 1 is ideal.
     double overfetch = 0;
 };
 /// Estimates the efficiency of vertex processing for all triangles of `scene`.

@@ -23,8 +23,8 @@ namespace prt {
 /// largest is the square of twice a triangle's area, (2 sqrt(3) 1e9)^4 = 1.4e38.
 inline constexpr double kFarthestVertex = 1e9;
 
-/// Meaning of the alpha of a surface, as in glTF. Alpha is that of the base color, its texture and the vertex
-/// colors.
+/// Meaning of the alpha of a surface, as in glTF. Alpha is the product of the alphas of the base color, its
+/// texture and the vertex colors.
 enum class AlphaMode {
     opaque, ///< alpha is ignored
     mask,   ///< the surface is opaque where alpha is at least Material::alpha_cutoff, and absent elsewhere
@@ -38,7 +38,7 @@ enum class Wrap {
 };
 
 /// Reference from a material to a texture, which multiplies factors of the material. All texels count as 1 if
-/// there is no image, or if a vertex array lacks the set of texture coordinates.
+/// `image` is -1, or if a vertex array lacks the set of texture coordinates.
 struct TextureUse {
     int image = -1;   ///< index into Scene::images; -1: no texture
     int texcoord = 0; ///< index of the set in VertexArray::texcoords
@@ -117,8 +117,8 @@ struct VertexArray {
     std::vector<glm::vec3> positions; ///< [vertices] metres, in the world's axes, relative to Scene::origin
     std::vector<glm::vec3> normals;   ///< [vertices] unit, in the world's axes; zero if neither the file nor
                                       ///< the triangles define one
-    std::vector<std::vector<glm::vec2>> texcoords; ///< [set n][vertices] TEXCOORD_n; a set that the file
-                                                   ///< lacks is empty or missing
+    std::vector<std::vector<glm::vec2>> texcoords; ///< [set n][vertices] TEXCOORD_n, up to the first set that
+                                                   ///< the file lacks; an empty set counts as missing
     std::vector<glm::vec4> colors; ///< [vertices] COLOR_0, linear Rec. 709 and alpha, 0..1; empty: white
     /// [vertices] index in the file of the vertex from which each vertex was created, if flat normals split
     /// vertices; empty: the indices are the same as in the file.
@@ -183,9 +183,9 @@ struct Scene {
     /// Center of the bounding box of all triangles in the file's world, metres. All positions are relative to
     /// this center, so that a scene far from the world's origin keeps its precision.
     glm::dvec3 origin{0};
-    /// Vertices of visible nodes. Receivers are numbered array by array.
+    /// Vertices of `primitives`. Receivers are numbered array by array.
     std::vector<VertexArray> vertex_arrays;
-    std::vector<Primitive> primitives; ///< primitives of visible nodes, node by node
+    std::vector<Primitive> primitives; ///< triangle primitives of visible nodes, node by node
     std::vector<Material> materials;   ///< materials of the file, then a default `Material` for primitives
                                        ///< without a material
     std::vector<EncodedImage> images;  ///< images of the file, then empty ones for textures without an image
@@ -209,8 +209,8 @@ std::string lamp_name(const Scene& scene, std::size_t material);
 std::vector<float> receiver_areas(const Scene& scene);
 
 /// Returns a hash of the positions (relative to Scene::origin) and normals of all receivers, as 16
-/// hexadecimal digits. The hash does not depend on the order of the receivers. Scenes with equal hashes have
-/// the same receivers.
+/// hexadecimal digits. The hash does not depend on the order of the receivers or on Scene::origin. Scenes
+/// with equal hashes have the same receivers, except for improbable collisions.
 std::string receivers_id(const Scene& scene);
 
 /// An axis-aligned bounding box, metres, relative to Scene::origin.

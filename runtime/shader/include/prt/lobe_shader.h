@@ -25,7 +25,8 @@ std::string lobe_defines(const LobeModel& model, int light_order = 0);
 std::string lobe_functions(const LobeModel& model, const std::string& behind = {});
 
 /// Returns the content of the uniform block PrtLobeProfiles: [kMaxProfiles] the gains of bands 0 to 3 of each
-/// profile. Entries beyond the profiles of the model are 0.
+/// profile. Entries beyond the profiles of the model are 0. `model` must be valid (`check_lobes`); this is
+/// not checked.
 std::vector<glm::vec4> lobe_profile_block(const LobeModel& model);
 
 } // namespace prt

@@ -27,13 +27,14 @@ struct ShaderBinding {
     BindingKind kind;      ///< kind of the input or output
     std::string name = {}; ///< name of the attribute, block, sampler, uniform or output in the shader
     std::string type = {}; ///< type in GLSL, for example "uvec4" or "vec4[]"
-    int number = -1;       ///< location of an attribute or output, else binding point; -1: the shader has no
-                           ///< number, and an application looks up the input by its name
+    int number = -1; ///< location of an attribute or output, else binding point; -1: the shader states no
+                     ///< number; uniforms, blocks and samplers are then looked up by name
     std::string content = {}; ///< description of the data, in English, for the application's programmer
 };
 
 /// Returns the bindings of the vertex shader that `relight_shader` returns for the same arguments:
-/// attributes, then constants and table of clusters, then the matrix, then the output.
+/// attributes, then constants, table of clusters (absent if `clusters_have_equal_layout`), matrix and output.
+/// Does not check that `relight_shader` supports the arguments.
 std::vector<ShaderBinding> relight_bindings(const ClusteredTransfer& transfer, ConstantSource constants,
                                             ShaderLanguage language);
 

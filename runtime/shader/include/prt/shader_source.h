@@ -29,9 +29,9 @@ enum class ConstantSource {
 /// table of clusters, is texel (i % width, i / width).
 inline constexpr int kConstantTextureWidth = 256;
 
-/// Returns the source of a complete shader: version line of `language`, `defines`, then file `name` of the
-/// folder shaders/, in which each include is expanded once. `defines`: lines of #define, each with a line
-/// feed; may be empty. Throws `Error` if the file does not exist.
+/// Returns the source of a complete shader: version line of `language` (in ES also default precisions),
+/// `defines`, then file `name` of the folder shaders/, in which each include is expanded once. `defines`:
+/// lines of #define, each with a line feed; may be empty. Throws `Error` if the file does not exist.
 std::string shader_source(std::string_view name, std::string_view defines,
                           ShaderLanguage language = ShaderLanguage::glsl450);
 
@@ -66,7 +66,8 @@ std::string relight_shader(const ClusteredTransfer& transfer, ConstantSource con
 std::string term_defines(const TransferLayout& layout);
 
 /// Returns a complete compute shader that computes the constants on the GPU, as ClusterLighting::update does
-/// on the CPU (shaders/prt_constants.comp). Throws `Error` for OpenGL 3.3 and ES 3.0.
+/// on the CPU (shaders/prt_constants.comp). Throws `Error` for OpenGL 3.3 and ES 3.0, and the errors of
+/// `term_defines`.
 std::string constants_shader(const ClusteredTransfer& transfer, ShaderLanguage language);
 
 /// Type of the shader pass that lights a lightmap.
