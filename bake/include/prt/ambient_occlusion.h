@@ -32,8 +32,8 @@ struct OcclusionOptions {
 
 /// Ambient visibility and bent normals. The arrays are parallel, with one entry per receiver.
 struct AmbientVisibility {
-    /// [receivers] share of a uniform sky's light that arrives, weighted by the cosine, 0..1; 1: nothing
-    /// above the surface is occluded.
+    /// [receivers] share of a uniform sky's light that arrives, weighted by the cosine, 0..1; 1: all
+    /// directions above the surface are unoccluded.
     std::vector<float> ambient;
     /// [receivers] unit vectors in the axes of the scene: mean unoccluded direction, weighted by the cosine.
     std::vector<glm::vec3> bent_normals;

@@ -63,8 +63,8 @@ enum class LampMode {
     none,     ///< no light of lamps: the transfer has no lamp terms
 };
 
-/// Group of lamps that are dimmed together and share one term of the transfer. A bake with lamp terms throws
-/// `Error` if no lamp belongs to the group.
+/// Group of lamps that are dimmed together and share one term of the transfer. A bake throws `Error` if no
+/// lamp belongs to the group, except with LampMode::none.
 struct LampGroup {
     /// `name`: name of the term, which must differ from the names of lamps outside the group. `pattern`:
     /// matches whole names of lamps, with regard to case; * matches any number of characters, ? matches one.

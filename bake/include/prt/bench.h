@@ -16,9 +16,9 @@ namespace prt {
 /// Settings of the comparison.
 struct BenchOptions {
     int order = 6; ///< order of the transfer, 1..kMaxOrder
-    /// Numbers of rays per receiver of the runs of a series. The first run has `fewest_rays` rays, at least
-    /// 1. Each next run has twice the number of the previous run, while this is at most `max_rays`, which
-    /// must be in 1..kMaxRays. For BakeMethod::raster these are numbers of directions.
+    /// Numbers of rays per receiver of the runs of a series, both in 1..kMaxRays. The first run has
+    /// `fewest_rays` rays, and each next run has twice the number of the previous run. The series ends when
+    /// this number exceeds `max_rays`. For BakeMethod::raster these are numbers of directions.
     int fewest_rays = 64, max_rays = 4096;
     int raster_resolution = 1024; ///< texels along each side of a depth map, 16..16384, for
                                   ///< BakeMethod::raster

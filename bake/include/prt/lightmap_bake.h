@@ -72,8 +72,8 @@ LightmapBake bake_lightmap(const Scene& scene, const std::vector<Atlas>& atlases
 
 /// Returns points on the UV seams of `scene`, at least two per texel along each seam, whose jumps the
 /// compressor minimises. `texels` [receivers]: numbers of the lightmap's texels with transfer, in ascending
-/// order, as in BakedLightmap::texels. Points whose bilinear filters read other texels are omitted. A baked
-/// lightmap has almost no jumps at these points.
+/// order, as in BakedLightmap::texels. Seams between different normals, and points whose bilinear filters
+/// read other texels, are omitted. A baked lightmap has almost no jumps at these points.
 std::vector<SeamJump> seam_jumps(const Scene& scene, const LightmapLayout& layout,
                                  std::span<const std::uint32_t> texels);
 
