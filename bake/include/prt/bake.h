@@ -19,7 +19,7 @@ namespace prt {
 
 /// Errors of the transfer that a bake returns, measured at random points over the surface against light that
 /// is traced at these points. The errors contain noise and interpolation of all bounces. Points inside
-/// geometry and on media are excluded.
+/// geometry, on media and on fully transparent surfaces are excluded.
 struct BakeErrors {
     /// An error with its statistical uncertainty.
     struct Error {
@@ -35,7 +35,7 @@ struct BakeErrors {
     /// Error of one lamp term.
     struct LampError {
         std::string name; ///< name of the lamp or of its group
-        Error error;      ///< error relative to the light of this lamp
+        Error error;      ///< error relative to the baked light of this lamp, see `LampMode`
     };
     /// Errors at the points of one node of the file. `Error::relative_l2` is relative to the light at the
     /// points of this node, `Error::of_scene` to the light at the points of the whole scene.
@@ -54,7 +54,8 @@ struct BakeErrors {
     Error lamps; ///< error of the terms of all lamps together, each lamp with strength 1
     /// Errors on back sides of two-sided surfaces, which show the light of their front sides. `backs`: error
     /// of the light of the sky, at points where direct light of the sky reaches the back. `backs_by_lamps`:
-    /// error of the light of lamps, at points where direct light of lamps reaches the back.
+    /// error of the light of lamps, at points where direct light of lamps reaches the back. A node whose back
+    /// sides get almost no light has no points here, unless its surface transmits light.
     Error backs, backs_by_lamps;
     std::vector<LampError> each_lamp = {}; ///< [lamp terms] in the order of the terms
     std::vector<Node> nodes = {};          ///< nodes with at least one point, in the order of their first
@@ -86,13 +87,16 @@ struct BakeStatistics {
     };
     /// Numbers of receivers.
     struct Receivers {
-        std::size_t all = 0;    ///< receivers of the scene, which are its vertices
-        std::size_t traced = 0; ///< receivers of the scene with an area, from which rays were traced; the
-                                ///< others take the transfer of a receiver at the same position, or are dark
+        std::size_t all = 0; ///< receivers of the scene, which are its vertices
+        /// Receivers of the scene with an area. Rays are traced from them, or with a surface fit from samples
+        /// of their surface. The other receivers take the transfer of a receiver at the same position, or are
+        /// dark.
+        std::size_t traced = 0;
         std::size_t back_sides = 0; ///< additional receivers on back sides of surfaces that scatter light on
                                     ///< both sides; the result does not contain them
-        std::size_t sealed = 0;     ///< receivers inside solid geometry, where no light arrives
-        std::size_t refilled = 0;   ///< sealed receivers that took the values of their neighbours
+        std::size_t sealed = 0;     ///< receivers of the scene inside solid geometry, where no light arrives
+        std::size_t refilled = 0;   ///< sealed receivers, including back sides, that took the values of their
+                                    ///< neighbours
     };
     /// Wall-clock time of the stages of the bake in seconds.
     struct Seconds {
@@ -100,12 +104,13 @@ struct BakeStatistics {
         double fit =
             0; ///< time for fitting vertices to the surface; `bake` does not measure it and leaves it 0
         TraceSeconds tracing; ///< time for tracing rays
-        double transport = 0; ///< time for bounces, subsurface scattering and the noise filter
+        double transport = 0; ///< time for bounces, subsurface scattering, and the noise filter or the
+                              ///< solution of the surface fit
         double all = 0;       ///< total time; loading textures is not included
     };
     /// Size of the sparse operator that applies a bounce; all values are 0 if no light bounces.
     struct Gather {
-        /// `entries`: number of stored elements of the operator; `bytes`: their memory.
+        /// `entries`: number of stored elements of the operator; `bytes`: their size in memory.
         std::size_t entries = 0, bytes = 0;
         std::size_t bytes_moved = 0; ///< bytes transferred to and from the device that applied the operator;
                                      ///< 0: the CPU applied it
@@ -131,8 +136,10 @@ struct BakeStatistics {
     double rounding_error = 0; ///< relative L2 error that storing the transfer as float16 causes; computed
                                ///< for both number formats
     /// Light of the bounces that were not computed, estimated as a geometric series: the largest norm of its
-    /// transfer vectors, relative to the largest norm of the baked transfer vectors. For kEndlessBounces: the
-    /// estimated error of the sum over all bounces, relative to the largest coefficient.
+    /// transfer vectors, relative to the largest norm of the baked transfer vectors. 0 if no bounce was
+    /// computed, 1 if the last bounce is not darker than the bounce before it. For kEndlessBounces without
+    /// media: the estimated error of the sum over all bounces, relative to the largest coefficient. With
+    /// lamps: the larger of the values for the sky and for the lamps.
     double remaining_energy = 0;
     Lamps lamps;
     Gather gather;
@@ -158,16 +165,18 @@ struct BakeResult {
 /// receivers.
 enum class MeasureErrors { no, yes };
 
-/// Error of a bake with kEndlessBounces and lamps: the light of a lamp grows without limit, because a closed
-/// room reflects all of it.
+/// Error of a bake with kEndlessBounces and lamps: the sum over the bounces of a lamp's light does not
+/// converge. The usual reason is a closed room that reflects all light.
 struct EndlessLampLight : Error {
     using Error::Error;
 };
 
 /// Bakes transfer for every vertex of `scene`. On the CPU the result is deterministic for a given seed and
-/// does not depend on the number of threads. Throws `Error` for invalid options, for a bake that does not fit
-/// into memory, and if a backend is not available. Throws `EndlessLampLight` if the light of lamps does not
-/// converge, and `Cancelled` after a stop request.
+/// does not depend on the number of threads. Throws `Error` for invalid options, media or lamp groups, for a
+/// missing or damaged texture (BadTextures::error), for a lamp that is too bright for files, for a bake that
+/// does not fit into memory, and if the backend is not available. Throws `GpuFailure` (prt/gpu_failure.h) if
+/// the GPU of Backend::gpu fails, `EndlessLampLight` if the light of lamps does not converge, and `Cancelled`
+/// after a stop request.
 BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& progress = {},
                 MeasureErrors errors = MeasureErrors::no);
 

@@ -27,10 +27,11 @@ public:
         /// linear Rec. 709.
         glm::vec3 direction, radiance;
         float density; ///< probability density of `direction` per steradian; 0 if the whole environment is
-                       ///< black, and `radiance` is then 0
+                       ///< black: `radiance` is then 0 and `direction` is +Y
     };
     /// Returns a sample of the environment for a random point `u` of the unit square. The probability of a
-    /// texel is proportional to its luminance times its solid angle. Suns are not sampled.
+    /// texel is proportional to its luminance times its solid angle; the direction is uniform over the texel.
+    /// Suns are not sampled.
     Sample sample(const glm::vec2& u) const;
     /// Returns the radiance of the environment in unit direction `direction`, excluding suns; linear Rec.
     /// 709.

@@ -55,7 +55,7 @@ struct ErrorBudget {
     /// Interaction of the causes: `total` minus the sum of `causes`, which is twice the sum of the products
     /// of the errors of each two causes. `low` and `high` are 0, because this interval is not estimated.
     SquaredError together;
-    SquaredError total; ///< squared error of all causes at once, measured independently of `causes`
+    SquaredError total; ///< squared error of all causes at once, measured directly instead of as a sum
 
     /// Returns the entry of `causes` for `cause`.
     SquaredError& of(ErrorCause cause) { return causes[static_cast<std::size_t>(cause)]; }
@@ -73,15 +73,17 @@ struct InterpolatedRadiance {
     std::vector<glm::vec3> repeated; ///< radiance from another bake of the scene with a different seed
     std::vector<glm::vec3> shipped; ///< radiance after compression of `baked`; equal to `baked` if nothing is
                                     ///< compressed
-    bool alike = true; ///< true: `repeated` has the same number of rays as `baked`; false: it may have fewer
+    bool alike = true; ///< true: `repeated` has the same number of rays as `baked`; false: it may have
+                       ///< another number
 };
 
 /// Computes the error of each cause (docs/math.md, section 16) as a difference of two radiances at `points`:
 /// `light` between the SH bands of the order and the exact light, `bounces` between the baked bounces and all
 /// bounces, `vertices` between interpolated radiance and radiance at the points, `rays` between two
 /// independent bakes, `bytes` between the compressed and the uncompressed bake. `reference` must be traced at
-/// `points`, and the arrays of `radiance` must have one entry per point. `cut`: order and bounces of the
-/// bake.
+/// `points` (at least one), and the arrays of `radiance` must have one entry per point. `cut`: order and
+/// bounces of the bake, and the factors on the bands of the sky in `radiance`; factors other than 1 add to
+/// the error of `light`.
 ErrorBudget error_budget(const SurfacePoints& points, const SurfaceRadiance& reference,
                          const BandTruncation& cut, const InterpolatedRadiance& radiance,
                          BudgetMeasure measure = BudgetMeasure::relative);
@@ -97,9 +99,10 @@ SquaredError bounces_error(const SurfacePoints& points, const SurfaceRadiance& r
                            const BandTruncation& cut);
 
 /// Returns the squared interpolation error, relative as in BudgetMeasure::relative, that would remain if all
-/// triangles were split at the midpoints of their edges and the light at all corners were exact. `quarters`:
-/// corners of the smaller triangles at `points`. `corners`: radiance traced at `quarters.corners` [3 per
-/// point]; `reference`: radiance traced at `points`.
+/// triangles were split at the midpoints of their edges and the light at all corners were exact. The light is
+/// limited to the bands and bounces of `cut`, with its factors. `quarters`: corners of the smaller triangles
+/// at `points`. `corners`: radiance traced at `quarters.corners` [3 per point]; `reference`: radiance traced
+/// at `points`.
 SquaredError split_error(const SurfacePoints& points, const SurfaceRadiance& reference,
                          const QuarterCorners& quarters, const SurfaceRadiance& corners,
                          const BandTruncation& cut);

@@ -15,8 +15,10 @@ namespace prt {
 struct Falloff {
     /// One exponential function of the distance.
     struct Term {
-        double half_distance; ///< distance in metres at which half of the light passes; greater than 0
-        double share = 1;     ///< weight of this term relative to the sum of all weights; at least 0
+        double half_distance; ///< distance in metres at which half of the light passes; finite and greater
+                              ///< than 0
+        double share = 1;     ///< weight of this term relative to the sum of all weights; finite and at least
+                              ///< 0, greater than 0 for at least one term
     };
     std::vector<Term> terms; ///< empty: no light passes up to distance `farthest`
     /// Distance in metres beyond which all light passes; greater than 0, may be infinite.
@@ -28,8 +30,8 @@ struct Falloff {
     double passes(double distance) const;
 };
 
-/// Throws `Error` unless half distances are finite and greater than 0, shares are finite and at least 0, one
-/// share is greater than 0 (if there are terms), and `farthest` is greater than 0.
+/// Throws `Error` unless half distances are finite and greater than 0, shares are finite and at least 0, at
+/// least one share is greater than 0 (if there are terms), and `farthest` is greater than 0.
 void check_falloff(const Falloff& falloff);
 
 } // namespace prt

@@ -8,19 +8,19 @@
 
 namespace prt {
 
-/// A Vulkan device that a bake may run on.
+/// A Vulkan device.
 struct GpuDevice {
     std::string name;      ///< name that the driver reports
     std::string driver;    ///< name and version of the driver; empty if the device is older than Vulkan 1.2
     bool hardware = false; ///< false: the CPU emulates the device
     bool ray_queries = false; ///< true: the device supports Traversal::device
     double memory = 0;        ///< size of the largest heap of device memory in bytes
-    /// Feature that a bake needs and the device lacks; empty if the device can run a bake.
+    /// First feature that a bake needs and the device lacks; empty if the device can run a bake.
     std::string missing_feature = {};
 };
 
 /// Returns all Vulkan devices, including devices that cannot run a bake. The index of a device is its number
-/// for `named_device`. The result is empty if Vulkan is not available.
+/// for `named_device`. The result is empty if Vulkan is not available or reports an error.
 std::vector<GpuDevice> gpu_devices();
 
 /// Returns the index in `devices` of the device that `which` selects: a decimal index, or a part of the

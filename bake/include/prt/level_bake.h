@@ -32,7 +32,7 @@ struct LevelSample {
 struct LevelSamples {
     std::vector<LevelSample> samples;
     /// Distance from the samples to their points on level 0 in metres: root mean square weighted by area, and
-    /// maximum.
+    /// maximum. Samples without a point on level 0 do not count.
     double rms_distance = 0, largest_distance = 0;
     /// Diagonal of the bounding box of level 0, metres. If level 0 consists of several nodes of the file: the
     /// largest of their diagonals.
@@ -47,12 +47,14 @@ struct LevelOptions {
 
 /// Throws `Error` if the root mean square distance of a coarser level from level 0 exceeds a quarter of
 /// LevelSamples::diagonal, because a level at this distance cannot show the light of level 0. Uses few
-/// samples. Call this function before a bake to find the error early: `carry_levels` and `bake_levels` check
-/// the distances after the bake. Throws `Cancelled` after a stop request.
+/// samples, and ignores LevelOptions::seed. Call this function before a bake to find the error early:
+/// `carry_levels` and `bake_levels` check the distances after the bake. Throws `Cancelled` after a stop
+/// request.
 void check_levels(const LeveledScene& scene, const LevelOptions& options = {}, const Progress& progress = {});
 
-/// Returns samples spread over `level` of `node`, each with its point on level 0. Throws the errors of
-/// `check_levels` for this level, and `Cancelled` after a stop request.
+/// Returns samples spread over `level` of `node`, each with its point on level 0 if there is one. `node` must
+/// be one of the nodes of `scene`, and `level` one of its levels. Throws the errors of `check_levels` for
+/// this level.
 LevelSamples sample_level(const LeveledScene& scene, const LeveledNode& node, const CoarserLevel& level,
                           const LevelOptions& options = {}, const Progress& progress = {});
 
@@ -92,26 +94,27 @@ struct LevelOutcome {
 
 /// Result of `carry_levels` and `bake_levels`.
 struct LevelBake {
-    /// Transfer of all receivers of the scene with its levels. The first receivers, those of level 0, have
-    /// the transfer that the caller passed.
+    /// Transfer of all receivers of the scene with its levels. The first LeveledScene::finest_receivers
+    /// receivers have the transfer that the caller passed.
     Transfer transfer;
     /// One result per coarser level, node by node, in the order of LeveledNode::coarser.
     std::vector<LevelOutcome> levels;
     double seconds = 0;               ///< wall-clock time in seconds
-    std::vector<std::string> notices; ///< problems that do not prevent the result, one line each
+    std::vector<std::string> notices; ///< levels that are far from level 0, one line each; always empty
+                                      ///< after `bake_levels`
 };
 
 /// Computes the transfer of coarser levels without rays: fits their vertices to the transfer of level 0 at
-/// samples, by least squares. `finest` is the transfer of the receivers of level 0, [scene.finest_receivers].
-/// The result does not depend on the number of threads. Throws the errors of `check_levels`, and `Cancelled`
-/// after a stop request.
+/// samples, by least squares. `finest` is the transfer of the first receivers of the scene,
+/// [scene.finest_receivers]. The result does not depend on the number of threads. Throws the errors of
+/// `check_levels`.
 LevelBake carry_levels(const LeveledScene& scene, const Transfer& finest, const LevelOptions& options = {},
                        const Progress& progress = {});
 
 /// Bakes each coarser level independently of level 0. For each level number there is one bake of a scene in
-/// which the levels with this number replace level 0. `finest` is the transfer of the receivers of level 0,
-/// [scene.finest_receivers]. Throws the errors of `bake` and `check_levels`, and `Error` if the layout of a
-/// baked level differs from the layout of `finest`.
+/// which the levels with this number replace level 0; nodes without this level show level 0. `finest` is the
+/// transfer of the first receivers of the scene, [scene.finest_receivers]. Throws the errors of `bake` and
+/// `check_levels`, and `Error` if the layout of a baked level differs from the layout of `finest`.
 LevelBake bake_levels(const LeveledScene& scene, const Transfer& finest, const BakeOptions& options,
                       const Progress& progress = {});
 

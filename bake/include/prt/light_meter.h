@@ -14,8 +14,9 @@ namespace prt {
 /// The receivers that the camera of a picture sees, sampled on a coarse grid of pixels.
 class LightMeter {
 public:
-    /// Finds the visible receivers with at most 48 x 48 rays. Ignores radiance, transfer and lighting of
-    /// `picture`. `ray_scene` must be built from `*picture.scene`. Keeps no reference to the arguments.
+    /// Finds the visible receivers with at most 48 x 48 rays, which pass transparent surfaces and back sides
+    /// of single-sided surfaces. Ignores radiance, transfer and lighting of `picture`. `ray_scene` must be
+    /// built from `*picture.scene`. Keeps no reference to the arguments.
     LightMeter(const Picture& picture, const RayScene& ray_scene);
 
     /// Returns the visible receivers, each once, in ascending order; empty if the model is not visible. For a
@@ -23,8 +24,8 @@ public:
     std::span<const std::uint32_t> receivers() const { return receivers_; }
 
     /// Returns the mean luminance (Rec. 709) of exit radiance times base color over the pixels that the model
-    /// covers; 0 if the model covers no pixel. `radiance` [receivers()]: exit radiance for albedo 1, linear
-    /// Rec. 709, in the order of `receivers`. Negative values count as 0.
+    /// covers; 0 if the model covers no pixel. Emission is not included. `radiance`: exit radiance for albedo
+    /// 1, linear Rec. 709, one entry per entry of `receivers()`. Negative values count as 0.
     float luminance(std::span<const glm::vec3> radiance) const;
 
 private:
@@ -33,7 +34,8 @@ private:
 };
 
 /// Returns the luminance (Rec. 709) that `Picture::suns` add to `LightMeter::luminance`, from rays towards
-/// the suns at visible surfaces; 0 if the model covers no pixel. `scene` must be built from `*picture.scene`.
+/// the suns at visible surfaces; 0 if the model covers no pixel. Suns add nothing to surfaces of a medium.
+/// `scene` must be built from `*picture.scene`.
 float sun_luminance(const Picture& picture, const TraceScene& scene);
 
 /// Returns the exposure, a factor on radiance, that maps `luminance` to 0.22, a little brighter than middle

@@ -23,8 +23,8 @@ struct LightmapStatistics {
                                    ///< neighbouring texels; 0 with Inside::keep
     };
     Texels texels;
-    /// Number of vertices between which light bounces: vertices of the scene (of the finer model, if there is
-    /// one), their back sides, and vertices that were added between them; 0 without bounces.
+    /// Number of receivers between which light bounces: vertices of the scene (of the finer model, if there
+    /// is one), vertices that were added between them, and back sides that scatter light; 0 without bounces.
     std::size_t sources = 0;
     std::size_t rays = 0; ///< number of all traced rays
     std::string device;   ///< name of the device that traced the rays, for reports
@@ -47,7 +47,7 @@ struct LightmapStatistics {
     /// before the bake closed the seams, `seam` in the result. 0 if no map has a seam.
     double seam_before = 0, seam = 0;
     std::vector<std::string> notices; ///< parts of the scene that the bake left out or repaired, with
-                                      ///< reasons, one line each
+                                      ///< reasons, and texels far from the finer model, one line each
 
     /// Returns all traced rays divided by the total time, per second.
     double rays_per_second() const { return static_cast<double>(rays) / seconds.all; }
@@ -61,18 +61,19 @@ struct LightmapBake {
 
 /// Bakes transfer of the texels of `atlases`, which contain every primitive of `scene` once (from
 /// plan_atlases or from an unwrapping). The value of a texel is the mean over its part of the surface, with
-/// at most options.rays rays. Light bounces between vertices, and from vertices to texels. options.fit
-/// applies to these vertices, and edges longer than eight texels are split for them. If `finer` has a scene,
-/// that scene blocks and reflects light instead of `scene`. Throws the errors of `bake`, and `Error` for
-/// surfaces that transmit light or contain a medium, for depth maps (BakeMethod::raster) and for a target
-/// error.
+/// up to options.rays rays (at least one for each of up to four points), plus the rays to lamps. Light
+/// bounces between vertices, and from vertices to texels. options.fit applies to these vertices, and edges
+/// longer than eight texels are split for them. If `finer` has a scene, that scene blocks and reflects light
+/// instead of `scene`, and texels are measured on its surface as in `occlusion_maps`. Throws the errors of
+/// `bake` and `check_finer`, and `Error` for surfaces that transmit light or contain a medium, for depth maps
+/// (BakeMethod::raster), for a target error, and if `finer` has no surface near the scene.
 LightmapBake bake_lightmap(const Scene& scene, const std::vector<Atlas>& atlases, const BakeOptions& options,
                            const FinerModel& finer = {}, const Progress& progress = {});
 
 /// Returns points on the UV seams of `scene`, at least two per texel along each seam, whose jumps the
 /// compressor minimises. `texels` [receivers]: numbers of the lightmap's texels with transfer, in ascending
-/// order, as in BakedLightmap::texels. Points whose bilinear filters read other texels are omitted. A baked
-/// lightmap has almost no jumps at these points.
+/// order, as in BakedLightmap::texels. Seams between different normals, and points whose bilinear filters
+/// read other texels, are omitted. A baked lightmap has almost no jumps at these points.
 std::vector<SeamJump> seam_jumps(const Scene& scene, const LightmapLayout& layout,
                                  std::span<const std::uint32_t> texels);
 

@@ -30,15 +30,16 @@ struct OcclusionMapsStatistics {
     std::size_t rays = 0;             ///< number of all traced rays
     std::string device;               ///< name of the device that traced the rays, for reports
     double seconds = 0;               ///< total wall-clock time in seconds
-    std::vector<std::string> notices; ///< parts of the scene that were ignored or repaired, with reasons, one
-                                      ///< line each
+    std::vector<std::string> notices; ///< parts of the scene that were ignored or repaired, with reasons, and
+                                      ///< texels far from the finer model, one line each
 };
 
 /// An optional high-poly model of the same object that blocks and reflects light instead of the scene.
 struct FinerModel {
     const Scene* scene = nullptr; ///< the model, which the caller keeps; null: the scene itself blocks light
     double reach = 0;             ///< maximum distance in metres between the model's surface and the scene's
-                                  ///< surface; must be greater than 0 if `scene` is set
+                                  ///< surface, along the normal of the scene's surface; if `scene` is set,
+                                  ///< must be greater than 0 and at most kFarthestVertex
 };
 
 /// Throws `Error` if `finer` has a scene and its `reach` is not greater than 0 or exceeds kFarthestVertex.
@@ -46,9 +47,10 @@ void check_finer(const FinerModel& finer);
 
 /// Computes the maps of `atlases` (from plan_atlases or from an unwrapping) and passes each to `take`, in the
 /// order of `atlases`, from the calling thread. The value of a texel is the mean over its part of the
-/// surface, with at most options.rays rays. If `finer` has a surface within reach above or below the texel,
-/// the value is measured on that surface. Throws the same errors as `bake`, and `Error` if `finer` has no
-/// surface near the scene.
+/// surface, with up to options.rays rays (at least one for each of up to four points). If `finer` has a
+/// surface within reach above or below the texel that faces the same way, the value is measured on that
+/// surface. Throws the errors of `bake` and `check_finer`. Throws `Error` after the last map if `finer` has
+/// no surface near the scene.
 OcclusionMapsStatistics occlusion_maps(const Scene& scene, const std::vector<Atlas>& atlases,
                                        const OcclusionOptions& options,
                                        const std::function<void(OcclusionMap)>& take,

@@ -48,16 +48,17 @@ public:
                const SceneLamps* lamps = nullptr);
 
     /// Traces one more path for every pixel on `threads` threads (0: all). Throws `Cancelled` after a stop
-    /// request, which is checked before each row; rows that are complete then keep their new path.
+    /// request, which is checked before each row. Rows that are complete then keep their new path, but the
+    /// pass does not count, and the next pass repeats its random numbers.
     void add_pass(int threads = 0, std::stop_token stop = {});
     /// Returns the number of complete passes.
     int passes() const { return passes_; }
 
-    /// Returns the mean of all passes: radiance, linear Rec. 709, [height][width]; black before the first
-    /// pass.
+    /// Returns the mean of the paths of each pixel: radiance, linear Rec. 709, [height][width]; black before
+    /// the first pass.
     Image image() const;
-    /// Returns for each pixel whether the ray through its center hits a visible surface, [height][width].
-    /// Back sides of single-sided surfaces and surfaces with an opacity below 0.5 do not count.
+    /// Returns for each pixel whether the ray through its center hits a visible surface, [height][width]. The
+    /// ray passes back sides of single-sided surfaces, and surfaces with an opacity below 0.5.
     std::vector<bool> surface_mask() const;
 
 private:
@@ -81,8 +82,9 @@ struct PathTracedPicture {
 };
 
 /// Renders a picture with `paths` paths per pixel, rounded up to an even number, at least 2; half of the
-/// paths belong to each of the two halves. Uses all threads of the machine. The other arguments are those of
-/// `PathTracer`. Throws `Cancelled` after a stop request.
+/// paths belong to each of the two halves. The halves use the seeds 2 s and 2 s + 1, with s the seed of
+/// `options`. Uses all threads of the machine. The other arguments are those of `PathTracer`. Throws
+/// `Cancelled` after a stop request.
 PathTracedPicture path_traced(const TraceScene& scene, const DistantLight& light,
                               const PathTraceOptions& options, int paths, const SceneLamps* lamps = nullptr,
                               const Progress& progress = {});

@@ -24,23 +24,25 @@ struct ModelPose {
     std::vector<glm::dmat4> nodes; ///< [AnimatedScene::nodes()] world matrices
 };
 
-/// Returns 1 + `count` poses: the pose of the file, then `count` poses at the centers of equal time intervals
-/// over all animations, one animation after another. `only`: name of the animation to use; empty: all. Throws
-/// `Error` if the model has no animation or no animation with this name, and for a count below 1.
+/// Returns 1 + `count` poses: the pose of the file, then `count` poses at the centers of equal intervals of
+/// the total time of the animations, one animation after another. `only`: name of the animations to use;
+/// empty: all. Throws `Error` if the model has no animation or no animation with this name, and for a count
+/// below 1.
 std::vector<ModelPose> poses_of(const AnimatedScene& model, int count, const std::string& only = {});
 
-/// Returns `count` poses at the beginnings of equal time intervals over all animations, one animation after
-/// another. For one animation of two seconds, 6 poses are at 0, 1/3, 2/3, .. 5/3 s. `only`: name of the
-/// animation to use; empty: all. Throws `Error` if the model has no animation or no animation with this name,
-/// and for a count below 1.
+/// Returns `count` poses at the beginnings of equal intervals of the total time of the animations, one
+/// animation after another. For one animation of two seconds, 6 poses are at 0, 1/3, 2/3, .. 5/3 s. `only`:
+/// name of the animations to use; empty: all. Throws `Error` if the model has no animation or no animation
+/// with this name, and for a count below 1.
 std::vector<ModelPose> frames_of(const AnimatedScene& model, int count, const std::string& only = {});
 
 /// Settings of the bake of each pose.
 struct PoseBakeOptions {
-    int order = 4;                                 ///< order of the transfer, 1..kMaxOrder
-    int rays = 256;                                ///< number of rays per vertex and pose, 1..kMaxRays
-    int bounces = 1;                               ///< number of bounces, 0..kMaxBounces, or kEndlessBounces
-    TracerChoice tracer = {};                      ///< hardware and method that trace the rays
+    int order = 4;            ///< order of the transfer, 1..kMaxOrder
+    int rays = 256;           ///< number of rays per vertex and pose, 1..kMaxRays
+    int bounces = 1;          ///< number of bounces, 0..kMaxBounces, or kEndlessBounces
+    TracerChoice tracer = {}; ///< hardware and method that trace the rays; depth maps and a distance fall-off
+                              ///< need 0 bounces
     BadTextures bad_textures = BadTextures::error; ///< treatment of missing and damaged textures
     int threads = 0;                               ///< number of threads; 0: all
     std::uint64_t seed = 0;                        ///< seed of the random directions of rays
@@ -50,20 +52,21 @@ struct PoseBakeOptions {
 /// AnimatedScene::scene().
 struct PoseTransfer {
     /// [vertices] transfer with a single `combined` term that has one channel or three, in world space.
-    /// Sealed vertices have the transfer of their neighbours.
+    /// Sealed vertices have the transfer of their neighbours, see Inside::refill.
     Transfer transfer;
     std::vector<float> areas; ///< [vertices] area in this pose, m²; 0 for sealed vertices
     std::vector<bool> sealed; ///< [vertices] true: the vertex is inside solid geometry and never visible
     std::size_t rays = 0;     ///< number of all traced rays
 };
-/// Bakes the transfer of the model in `pose`. Throws `Error` if the pose moves a vertex beyond
-/// kFarthestVertex, and the errors of `bake`.
+/// Bakes the transfer of the model in `pose`. Throws `Error` if a coordinate of a vertex, relative to
+/// Scene::origin of the model, exceeds kFarthestVertex in this pose, and the errors of `bake`.
 PoseTransfer bake_pose(const AnimatedScene& model, const ModelPose& pose, const PoseBakeOptions& options,
                        const Progress& progress = {});
 
 /// Transforms transfer between world space in a pose and the frame of each vertex, in which the mesh stores
 /// the vertex normal. The rotation between both is the rotation nearest to the vertex matrix (its polar
-/// factor). The frame is also mirrored if the matrix mirrors.
+/// factor), or the identity if the matrix is nearly singular. If the matrix mirrors, the rotation is nearest
+/// to the negative matrix, and directions are also negated.
 class VertexFrames {
 public:
     /// Computes the frames of all vertices of `model` in `pose`. Keeps no reference to the arguments.
@@ -89,7 +92,8 @@ private:
 /// Transfer with one channel in the frames of the vertices: the mean over the color channels and over poses.
 struct MeanTransfer {
     int order = 0; ///< order of the transfer
-    /// [vertices][order²] mean over the poses in which the vertex is not sealed.
+    /// [vertices][order²] mean over the poses in which the vertex is not sealed; over all poses if it is
+    /// sealed in all.
     std::vector<double> vectors;
     /// [vertices][order²] transfer in the first pose, also of vertices that are sealed in this pose.
     std::vector<double> rest;
@@ -97,7 +101,7 @@ struct MeanTransfer {
     /// sealed in all poses has a hundredth of its area in the pose of the file.
     std::vector<float> areas;
     std::size_t rays = 0; ///< number of all traced rays
-    /// Number of vertices that are sealed in all poses; they take the transfer of their neighbours.
+    /// Number of vertices that are sealed in all poses; they have the transfer of their neighbours.
     std::size_t hidden = 0;
 
     /// Returns the number of coefficients of a transfer vector, order².
@@ -106,15 +110,16 @@ struct MeanTransfer {
     std::size_t vertices() const { return areas.size(); }
 };
 
-/// Bakes all `poses` (at least one) and averages their transfer in the vertex frames. Poses in which a vertex
-/// is sealed (inside solid geometry) do not count for this vertex. A fit to the mean is a fit to all poses:
-/// in the vertex frames, the sum of squared differences to the vectors of all poses is the squared difference
-/// to their mean, times the number of poses, plus a constant. Throws the errors of `bake_pose`.
+/// Bakes all `poses` (at least one) and averages their transfer in the vertex frames. Pose i uses the seed
+/// `seed` + i of `options`. Poses in which a vertex is sealed (inside solid geometry) do not count for this
+/// vertex, unless it is sealed in all. A fit to the mean is a fit to all poses that count: in the vertex
+/// frames, the sum of squared differences to their vectors is the squared difference to their mean, times the
+/// number of these poses, plus a constant. Throws the errors of `bake_pose`.
 MeanTransfer mean_of_poses(const AnimatedScene& model, std::span<const ModelPose> poses,
                            const PoseBakeOptions& options, const Progress& progress = {});
 
 /// Writes the mean over the color channels of the transfer vector of `receiver` to `grey` [order²].
-/// `transfer` must have a single `combined` term.
+/// `transfer` must have a single term of the kind `combined`, with one channel or three.
 void grey_vector(const Transfer& transfer, std::size_t receiver, std::span<double> grey);
 
 } // namespace prt
