@@ -32,8 +32,8 @@ struct Scattering {
 struct SurfaceTraits {
     bool alpha = false;        ///< the surface can let rays pass: it is cut out, blended, or glass (not
                                ///< `opaque`)
-    bool textured = false;     ///< scattering varies over the surface by textures or vertex colors, or the
-                               ///< surface lets rays pass
+    bool textured = false;     ///< scattering can vary over the surface by textures or vertex colors, or the
+                               ///< surface can let rays pass
     bool transmission = false; ///< the surface transmits diffuse light as a thin sheet
     bool color = false;        ///< the base color or its texture, the vertex colors, or the color of light
                                ///< that a thin sheet transmits is not grey
@@ -91,7 +91,7 @@ public:
     /// Returns the diffuse scattering of the part of the surface that stops rays, at `point`.
     Scattering scattering(const SurfacePoint& point) const;
     /// Returns the scattering that all points of the triangle share; no value if textures or vertex colors
-    /// vary it.
+    /// can vary it.
     std::optional<Scattering> constant_scattering(std::uint32_t triangle) const {
         return kinds_[triangles_[triangle].primitive].constant;
     }

@@ -63,9 +63,10 @@ struct TracedHalves {
 };
 
 /// Traces the receivers with the indices `indices` and replaces their vectors in both members of `to`. The
-/// results estimate the noise of the rays. The first half has `first_half(options.rays)` rays, which must not
-/// be 0. The tracer must support ranges of rays (Tracer::notes_hits). `sink`, if not empty, gets the hits of
-/// each receiver. Throws `Cancelled` after a stop request, and the errors of Tracer::trace.
+/// difference of the two results serves for an estimate of the noise of the rays. The first half has
+/// `first_half(options.rays)` rays, which must not be 0. The tracer must support ranges of rays
+/// (Tracer::notes_hits). `sink`, if not empty, gets the hits of each receiver. Throws `Cancelled` after a
+/// stop request, and the errors of Tracer::trace.
 void trace_in_halves(Tracer& tracer, const Receivers& receivers, std::span<const std::uint32_t> indices,
                      const TraceOptions& options, const TracedHalves& to, const Progress& progress = {},
                      const HalvesSink& sink = {});

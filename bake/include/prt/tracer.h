@@ -34,8 +34,8 @@ struct TraceOptions {
     std::uint32_t first_ray = 0;
     /// For calls with a sink: one of `hit_stride` rays is traced to its nearest hit, and the sink gets this
     /// hit. All other rays only test whether they are blocked; the weights of the hits represent them. 1: all
-    /// rays are traced to their hits. The value has no effect in scenes with cut-out, blended or glass
-    /// surfaces, and with a distance fall-off: all rays are then traced to their hits.
+    /// rays are traced to their hits. For every value, all rays are traced to their hits in scenes with
+    /// cut-out, blended or glass surfaces, and with a distance fall-off.
     int hit_stride = 1;
 };
 

@@ -20,8 +20,10 @@ enum class Traversal {
 
 /// Settings that select a tracer.
 struct TracerChoice {
-    Backend backend = Backend::automatic;  ///< hardware that traces rays
-    BakeMethod method = BakeMethod::trace; ///< ray tracing, or depth maps on a GPU with OpenGL 4.5
+    Backend backend = Backend::automatic;  ///< hardware that traces rays or draws depth maps
+    BakeMethod method = BakeMethod::trace; ///< ray tracing, or depth maps with OpenGL 4.5: on a hardware GPU
+                                           ///< for Backend::automatic, on any device for Backend::gpu; `bake`
+                                           ///< throws `Error` for Backend::cpu
     int raster_resolution = 1024;          ///< texels along each side of a depth map, 16..16384; ignored by
                                            ///< BakeMethod::trace
     /// GPU that traces rays with Backend::gpu: its index in gpu_devices(), or a part of its name, as in

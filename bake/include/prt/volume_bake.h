@@ -24,8 +24,9 @@ struct VolumeOptions {
     /// Maximum number of probes: the bake uses about the smallest spacing that does not exceed it. At least
     /// kBrickProbes; requires that `error` is 0. 0: no maximum, `spacing` is used.
     std::size_t probes = 0;
-    /// Box of the volume in metres, relative to Scene::origin; each side is longer than 0, and coordinates
-    /// are within 1e9. No value: the bounding box of the scene, extended along axes on which it is flat.
+    /// Box of the volume in metres, relative to Scene::origin; each side must be longer than 0, and
+    /// coordinates at most 1e9 in magnitude. No value: the bounding box of the scene, extended along axes on
+    /// which it is flat.
     std::optional<Bounds> bounds = {};
     /// Target for the error of interpolation between probes, at least 0 and less than 1: relative L2 error of
     /// incident light over the whole volume, with band l of the sky weighted by 1 / (l + 1)². With lamps, it
