@@ -13,10 +13,10 @@ namespace prt {
 /// Bakes `scene` again with the options in `record` and another seed, on the CPU unless the method is
 /// BakeMethod::raster. Returns the terms of distant light: [vertices], without terms of lamps. `baked` and
 /// `record` are the results of the first bake. `threads`: number of threads; 0: all. Throws `Error` if
-/// `baked` has no term of distant light, or if the relative L2 difference of its first term exceeds 6 times
-/// BakeRecord::sampling_error plus 0.05: the scene, or an option that the record does not contain, was then
-/// different. Other terms or another number of receivers count as a difference of 1. Also throws the errors
-/// of `bake`, and `Cancelled` after a stop request.
+/// `baked` has no term of distant light, or if the relative L2 difference between its first term and that of
+/// the result exceeds 6 times BakeRecord::sampling_error plus 0.05: the scene, or an option that the record
+/// does not contain, was then different. Other terms or another number of receivers count as a difference of
+/// 1. Also throws the errors of `bake`, and `Cancelled` after a stop request.
 Transfer repeated_bake(const Scene& scene, const Transfer& baked, const BakeRecord& record, int threads,
                        const Progress& progress = {});
 

@@ -49,7 +49,7 @@ inline LightmapSize size_of(const Atlas& atlas) {
 /// `scene` must have a triangle. Throws `Error` for options out of range, for primitives without this UV set,
 /// if the UVs of a triangle cross the border of the texture, if the UVs of a texture have no area, if more
 /// than 0.1 % of the area of the charts of a texture overlaps, and if `per_metre` needs more than kMaxTexels
-/// per side. AtlasMode::automatic throws all these errors, except overlaps, also for one texture for all
+/// per side. With AtlasMode::automatic, all these errors, except overlaps, also apply to one texture for all
 /// surfaces.
 std::vector<Atlas> plan_atlases(const Scene& scene, const TexelOptions& options);
 
