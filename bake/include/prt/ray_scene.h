@@ -25,7 +25,7 @@ class OppositeTriangles;
 struct Ray {
     glm::vec3 origin, ///< metres, relative to Scene::origin
         direction;    ///< any length greater than 0
-    float from = 0;   ///< begin of the segment, in lengths of `direction`
+    float from = 0;   ///< begin of the segment, in lengths of `direction`; at least 0
     /// End of the segment, in lengths of `direction`. The default is infinity: the ray has no end.
     float to = std::numeric_limits<float>::infinity();
 };
@@ -35,8 +35,9 @@ struct Hit {
     std::uint32_t triangle; ///< index among the triangles of all primitives, in the order of
                             ///< Scene::primitives
     float u, v;             ///< barycentric coordinates of the hit for corners 1 and 2, 0..1
-    /// Number of rays that the hit represents; fractional for surfaces that stop a share of a ray. The sum
-    /// over all hits of a receiver is its number of blocked rays.
+    /// Number of rays that the hit represents, greater than 0. It can be a fraction, because a surface may
+    /// stop a share of a ray, and because some hits may represent all blocked rays
+    /// (TraceOptions::hit_stride). The sum over all hits of a receiver is its number of blocked rays.
     float weight;
     float footprint; ///< area of the surface that the hit represents, m², for filters of textures; 0 if
                      ///< SurfaceTraits::textured is false
@@ -61,22 +62,24 @@ public:
     RayScene(RayScene&&) noexcept;
     ~RayScene();
 
-    /// Returns the nearest hit along `ray`, or no value if the ray hits nothing. If a mesh contains a surface
-    /// as two opposite triangles, the hit is on the triangle whose front faces the origin of the ray.
+    /// Returns the nearest hit along `ray`, or no value if the ray hits nothing. If the hit triangle is one
+    /// of a pair of opposite triangles (see `opposites`), the hit is on the triangle whose front faces the
+    /// origin of the ray.
     std::optional<RayHit> nearest(const Ray& ray) const;
     /// Returns the nearest hit on an accepted triangle, or no value without such a hit. The ray passes all
     /// other triangles. `accepts` gets a triangle id and returns true to accept it; it is called during the
-    /// query, on the calling thread. If a mesh contains a surface as two opposite triangles, the hit may be
-    /// on the back of one of them.
+    /// query, on the calling thread. If the hit triangle is one of a pair of opposite triangles (see
+    /// `opposites`), the hit may be on its back.
     std::optional<RayHit> nearest(const Ray& ray,
                                   const std::function<bool(unsigned triangle)>& accepts) const;
     /// Returns whether `ray` hits any triangle.
     bool occluded(const Ray& ray) const;
 
-    /// Returns the pairs of triangles that have the same corners in opposite order. A direct query of
-    /// `handle()` may report a hit on the back of one triangle of a pair. The caller must then replace the
-    /// hit by a hit on the front of the other triangle (OppositeTriangles::shown, an internal function). The
-    /// function `nearest(ray)` does so itself.
+    /// Returns the pairs of triangles of one vertex array that have the same corner positions in opposite
+    /// order. The materials of both are single-sided, transmit no diffuse light and cast shadows. A direct
+    /// query of `handle()` may report a hit on the back of one triangle of a pair. The caller must then
+    /// replace the hit by a hit on the front of the other triangle (OppositeTriangles::shown, an internal
+    /// function). The function `nearest(ray)` does so itself.
     const OppositeTriangles& opposites() const { return *opposites_; }
 
     /// Returns the RTCScene of Embree, for queries of several rays at once. This object owns it.
@@ -85,15 +88,16 @@ public:
     /// Returns the distance in metres by which a ray's origin must be moved off the surface at `position` so
     /// that the surface does not block the ray: 2^-24 (12 c + 16 l). Here c is the largest magnitude of a
     /// coordinate of `position`, and l is the largest distance on one axis from `position` to a corner of any
-    /// triangle that contains `position` (docs/math.md, section 2).
+    /// triangle whose bounding box contains `position`, with a tolerance of 1e-6 c (docs/math.md, section 2).
     float surface_offset(const glm::vec3& position) const;
     /// Returns the part of `surface_offset` that does not depend on triangles, in metres: 2^-24 · 12 c, with
     /// c the largest magnitude of a coordinate of `position`.
     static float coordinate_offset(const glm::vec3& position);
 
-    /// Returns an upper bound, in metres, of the `surface_offset` at all points of triangle `id`. Ignores all
-    /// other triangles and is therefore fast. `distance`: length in metres of a ray that ends on the
-    /// triangle, which increases the bound; 0 for a ray that starts there.
+    /// Returns an upper bound, in metres, of the `surface_offset` that points of triangle `id` would have if
+    /// the scene contained only this triangle. Therefore it is fast, but can be less than `surface_offset`
+    /// next to a larger triangle. `distance`: length in metres of a ray that ends on the triangle, which
+    /// increases the bound; 0 for a ray that starts there.
     float triangle_offset(unsigned id, float distance = 0) const;
 
     /// Replaces the contents of `ids` by the ids of all triangles whose bounding boxes are within `distance`

@@ -16,8 +16,8 @@ namespace prt {
 /// array has one entry per receiver, at the index of the receiver.
 struct Receivers {
     std::vector<glm::vec3> positions; ///< [receivers] metres, relative to Scene::origin
-    std::vector<glm::vec3> normals;   ///< [receivers] unit; zero: not on a surface, the transfer is zero
-    std::vector<float> areas;         ///< [receivers] m², 1 for probes; 0: the transfer is zero
+    std::vector<glm::vec3> normals;   ///< [receivers] unit; zero: no normal, rays are not traced
+    std::vector<float> areas;         ///< [receivers] m², 1 for probes; 0: rays are not traced
     /// [receivers] ray origin minus position, in units of RayScene::surface_offset; empty: `normals` are used
     /// instead. Vertices need this array, because their normals may point below an adjacent triangle.
     std::vector<glm::vec3> starts = {};
@@ -28,16 +28,18 @@ struct Receivers {
     void append(const Receivers& from, std::size_t index);
 };
 
-/// Returns all vertices of the scene as receivers, in the order of Scene::vertex_arrays. The area of a vertex
-/// is a third of the area of all triangles at this vertex.
+/// Returns all vertices of the scene as receivers, in the order of Scene::vertex_arrays, with `starts`. The
+/// area of a vertex is a third of the area of all triangles that use this vertex.
 Receivers vertex_receivers(const Scene& scene);
 
 /// Returns the indices of receivers with an area greater than 0 and a normal that is not zero, in ascending
-/// order. All other receivers have zero transfer.
+/// order. A bake traces rays only from these receivers. Other receivers take the transfer of a receiver at
+/// the same position if they have a normal, otherwise they stay dark.
 std::vector<std::uint32_t> receivers_on_surfaces(const Receivers& receivers);
 
 /// Returns the direct transfer of all vertices as if nothing cast shadows: the clamped-cosine lobe of each
-/// normal with `order` bands, one term with one channel. It is zero for vertices with a zero normal.
+/// normal with `order` (1..kMaxOrder) bands, one term with one channel. It is zero for vertices with a zero
+/// normal.
 Transfer unshadowed_transfer(const Scene& scene, int order);
 
 } // namespace prt

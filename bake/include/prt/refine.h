@@ -39,9 +39,9 @@ struct RefineStatistics {
     };
     Size before,            ///< original scene
         after;              ///< refined scene
-    int rays_per_point = 0; ///< number of rays that were traced for each test point
-    std::size_t points = 0, ///< number of all test points on triangles
-        rays = 0;           ///< number of all traced rays
+    int rays_per_point = 0; ///< number of rays that measure the light at each test point
+    std::size_t points = 0, ///< number of all test points, including points inside geometry
+        rays = 0;           ///< number of all traced rays, including those that find points inside geometry
     double seconds = 0;     ///< duration of `refine`
 };
 
@@ -52,12 +52,13 @@ struct RefineResult {
 };
 
 /// Chooses triangles of `scene` to split, and returns the refinement; `scene` is not changed. Measures the
-/// error of direct light that is fitted to vertices and interpolated, against rays at test points on the
-/// triangles. Splits triangles with the largest errors until a condition of `RefineEnd` is met. `options` are
-/// those of the bake that follows. On the CPU the result is deterministic and does not depend on the number
-/// of threads. Needs about 2.4 kB of memory per vertex of the refined scene at order 6. Throws `Error` for
-/// invalid options, and if `options` have BakeMethod::raster, FitMode::vertex or a `target_error`. Throws
-/// `Cancelled` after a stop request.
+/// error of direct light on front sides, fitted to vertices and interpolated, against rays at test points on
+/// the triangles. Splits triangles with the largest errors until a condition of `RefineEnd` is met. `options`
+/// are those of the bake that follows; the number of rays and the bounces in them have no effect. On the CPU
+/// the result is deterministic and does not depend on the number of threads. Needs about 2.4 kB of memory per
+/// vertex of the refined scene at order 6. Throws `Error` if the order, the media or `how.target` are
+/// invalid, and if `options` have BakeMethod::raster, FitMode::vertex or a `target_error`. Also throws the
+/// errors of `load_textures`, `make_tracer` and Tracer::trace, and `Cancelled` after a stop request.
 RefineResult refine(const Scene& scene, const BakeOptions& options, const RefineOptions& how,
                     const Progress& progress = {});
 

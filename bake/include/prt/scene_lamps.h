@@ -33,18 +33,20 @@ public:
 
     /// Returns whether any selected punctual light has a strength that is not zero.
     bool has_lights() const { return !lights_.empty(); }
-    /// Returns whether any triangle emits light of a selected lamp. Required for `sample_surface`.
+    /// Returns whether any triangle with an area has an emissive material of a lamp whose strength is not
+    /// zero. Required for `sample_surface`.
     bool has_surfaces() const { return !shining_.empty(); }
 
     /// A random sample of the light that lamps send to a position.
     struct Sample {
         glm::vec3 towards{0, 1, 0}; ///< unit direction from the position to the light
-        glm::vec3 way{0}; ///< metres: vector from the position to the point that emits the light; for a
-                          ///< directional light the unit direction towards it
+        glm::vec3 way{0}; ///< metres: vector from the position to the light, or to a point slightly in front
+                          ///< of the emissive triangle; for a directional light the unit direction towards it
         float reach = 1;  ///< length of the shadow ray in lengths of `way`: 1, or infinity for
                           ///< directional lights
-        /// Unoccluded irradiance of a receiver whose normal is `towards`, divided by the probability of the
-        /// sampled light, or by `density` for a point of a surface. 0: no light from this sample.
+        /// Unoccluded light. For a punctual light: irradiance of a receiver whose normal is `towards`,
+        /// divided by the probability of the light. For a point of a surface: emitted radiance times the
+        /// coverage of the surface, divided by `density`. 0: a black sample, which sends no light.
         glm::vec3 irradiance{0};
         float density = 0; ///< probability density of `towards` per steradian; 0 for punctual lights, which
                            ///< scattered rays cannot hit
@@ -59,10 +61,12 @@ public:
     Sample sample_light(const glm::vec3& position, float u) const;
     /// Samples a point on the emissive triangles for a receiver at `position`. `u`: random point of the unit
     /// square. The density per area is proportional to the approximate luminance of a triangle. Returns a
-    /// black sample if `position` is behind a single-sided triangle. Requires `has_surfaces()`.
+    /// black sample if the point emits no light, or if `position` is behind a single-sided triangle. Requires
+    /// `has_surfaces()`.
     Sample sample_surface(const glm::vec3& position, const glm::vec2& u) const;
     /// Returns the fraction of the light of `sample` that arrives at `position`, 0..1, according to a shadow
-    /// ray. `position` must be the one for which `sample` was created, slightly off its surface.
+    /// ray. `position` must be the one for which `sample` was created, slightly off its surface. `sample`
+    /// must not be black.
     float open(const glm::vec3& position, const Sample& sample) const;
 
     /// Returns the radiance that the front of `point`'s triangle emits at this point, or the back if `back`

@@ -45,7 +45,7 @@ std::optional<Medium> medium_of(const Material& material);
 class Dipole {
 public:
     /// `scattering`: sigma_s' in 1/m, greater than 0. `absorption`: sigma_a in 1/m, at least 0. `ior`: index
-    /// of refraction.
+    /// of refraction relative to air, at least 1. The constructor does not check these ranges.
     Dipole(double scattering, double absorption, double ior);
 
     /// Returns Rd, the fraction of the entering power that leaves per area at `distance` metres from the

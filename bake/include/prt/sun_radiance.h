@@ -17,8 +17,8 @@ namespace prt {
 
 /// Settings of `sun_radiance`.
 struct SunRays {
-    int rays = 256; ///< number of rays per receiver and sun, spread over the disc of the sun; a sun with half
-                    ///< angle 0 gets one ray
+    int rays = 256; ///< number of rays per receiver and sun, at least 1, spread over the disc of the sun; a
+                    ///< sun with half angle 0 gets one ray
     std::uint64_t seed = 0; ///< seed of the rotation of the rays about the center of a sun's disc
     int threads = 0;        ///< number of threads; 0: all
 };
@@ -27,8 +27,9 @@ struct SunRays {
 /// shadows and without bounces: [vertices], in the order of Scene::vertex_arrays, linear Rec. 709. The caller
 /// adds it to the light of the `direct` term under the sky without these suns. Includes light that thin
 /// sheets transmit from their back sides, like that term. Zero for vertices on surfaces whose material is
-/// `solid` in `scene` (TraceSceneOptions::solid), because a medium inside spreads their light. Throws
-/// `Cancelled` after a stop request.
+/// `solid` in `scene` (TraceSceneOptions::solid), because a medium inside spreads their light, and for
+/// vertices without an area or a normal. Throws the errors of TraceScene::rays, and `Cancelled` after a stop
+/// request.
 std::vector<glm::vec3> sun_radiance(const TraceScene& scene, std::span<const Sun> suns,
                                     const SunRays& options = {}, const Progress& progress = {});
 

@@ -26,15 +26,17 @@ struct SurfacePointOptions {
 };
 
 /// Points on the front sides of all surfaces of a scene, distributed evenly by area. Excluded are points
-/// inside geometry, where no light arrives, points in holes of cut-out textures, and triangles with a corner
-/// whose normal is zero. Every array has one entry per point, at the index of the point.
+/// inside geometry, where no light arrives, points at which the coverage of the surface is 0 (such as holes
+/// of cut-outs), and triangles with a corner whose normal is zero. Every array has one entry per point, at
+/// the index of the point.
 struct SurfacePoints {
     /// [points] the points as receivers. The area is that of the part of the surface which the point
     /// represents, in m², times the coverage of the surface at the point (Surfaces::coverage).
     Receivers receivers;
     std::vector<std::uint32_t> triangles; ///< [points] triangle of the point: index among the triangles of
                                           ///< all primitives, in the order of Scene::primitives
-    std::vector<glm::vec2> uv;            ///< [points] barycentric coordinates for corners 1 and 2, 0..1
+    std::vector<glm::vec2> uv;            ///< [points] barycentric coordinates for corners 1 and 2 of the
+                                          ///< triangle, 0..1
     std::vector<glm::uvec3> corners;      ///< [points] vertices at corners 0, 1 and 2 of the triangle, as
                                           ///< indices of the scene's receivers
 
@@ -45,15 +47,16 @@ struct SurfacePoints {
     }
 };
 
-/// Chooses points on the surfaces of `scene`. Excludes points inside geometry, which it finds by 64 rays per
-/// point, and up to 1 024 more rays if all of them are blocked. Throws `Cancelled` after a stop request.
+/// Chooses points on the surfaces of `scene`. Finds points inside geometry by 64 rays per point, and by more
+/// rays from points where all of them are blocked. Throws the errors of TraceScene::rays, and `Cancelled`
+/// after a stop request.
 SurfacePoints surface_points(const TraceScene& scene, const SurfacePointOptions& options = {},
                              const Progress& progress = {});
 
 /// Result of `quarter_corners`: the corners of the quarter triangle that contains each point.
 struct QuarterCorners {
     /// [3 · points] the corners of the quarter of point p are the entries 3 p, 3 p + 1 and 3 p + 2. Each has
-    /// the triangle, normal and area of point p.
+    /// its own position and `uv`, and the triangle, normal and area of point p.
     SurfacePoints corners;
     /// [points][3] barycentric coordinates of the point with respect to the three corners of its quarter.
     std::vector<std::array<float, 3>> shares;

@@ -33,12 +33,15 @@ struct ReferenceLight {
     /// Returns the exact light that arrives at a point without a bounce: `sky`, or `all` if `sky` has no
     /// value.
     const DistantLight& seen() const { return sky ? *sky : all; }
-    /// Returns the `dering_factors` of `sky_bands`, truncated to `order` bands: [band < order].
+    /// Returns the `dering_factors` of the first `order` (1..kMaxOrder) bands of `sky_bands`. Entries from
+    /// `order` on are not used. Throws the errors of `truncated` and `dering_factors`.
     BandFactors factors(int order) const;
-    /// Returns the lighting for transfer of `order` bands: Lighting::sky is `sky_bands` times `factors`
-    /// [band < order], and Lighting::suns is `sun_bands`, or has no value if `suns` is empty.
+    /// Returns the lighting for transfer of `order` bands: Lighting::sky is `sky_bands` times `factors`, and
+    /// Lighting::suns is `sun_bands`, or has no value if `suns` is empty. Throws `Error` if `sky_bands` or
+    /// `sun_bands` have fewer bands, or if a coefficient of the result is not finite.
     Lighting lighting(int order, const BandFactors& factors) const;
     /// Returns the lighting for transfer of `order` bands, with the sky multiplied by `factors(order)`.
+    /// Throws the errors of both functions.
     Lighting lighting(int order) const { return lighting(order, factors(order)); }
 };
 
@@ -49,7 +52,8 @@ inline constexpr int kCountedBounces = 8;
 /// Exit radiance at one point, split by the number of bounces of the light and by its SH band.
 struct BandRadiance {
     using Bands = std::array<glm::vec3, kMaxOrder>; ///< [band] radiance that the light of this band causes
-    /// [bounces][band] radiance of light after exactly `bounces` bounces, 0..kCountedBounces.
+    /// [bounces][band] radiance of light after exactly `bounces` bounces, 0..kCountedBounces; the last entry
+    /// also includes light after more bounces.
     std::array<Bands, kCountedBounces + 1> sky{}, ///< caused by the bands of ReferenceLight::sky_bands
         suns{}; ///< caused by the bands of ReferenceLight::sun_bands; zero for 0 bounces, because the
                 ///< renderer adds direct light of suns
@@ -66,11 +70,12 @@ struct BandTruncation {
 
 /// Settings of `SurfaceRadiance`.
 struct SurfaceRadianceOptions {
-    int paths = 256; ///< initial number of paths per point and half
-    /// Maximum number of paths per point and half. Has no effect if it is at most `paths`.
+    int paths = 256; ///< initial number of paths per point and half, at least 1
+    /// Maximum number of paths per point and half. If it is at most `paths`, the number is `paths`.
     int max_paths = 1 << 14;
     /// Target noise. The number of paths is doubled until the standard error of the mean squared error over
-    /// all points, divided by the mean squared radiance, is at most this value.
+    /// all points, divided by the mean squared radiance, is at most this value, or until `max_paths` or
+    /// `seconds` ends the doubling.
     double noise = 5e-5;
     double seconds = 0; ///< time after which the number of paths is not doubled again, seconds; 0: no limit
     std::uint64_t seed = 0x9e3779b97f4a7c15; ///< seed of the paths; the halves use `seed` and `seed` + 1
@@ -83,8 +88,8 @@ struct SurfaceRadianceOptions {
 /// noise mostly cancels in their difference. Surfaces scatter as in `PathTracer`; paths do not enter media.
 class SurfaceRadiance {
 public:
-    /// Traces the paths from `points`, which must be on `scene`. Keeps no references. Throws `Cancelled`
-    /// after a stop request.
+    /// Traces the paths from `points`, which must be on `scene`. Keeps no references. Throws the errors of
+    /// TraceScene::rays, and `Cancelled` after a stop request.
     SurfaceRadiance(const TraceScene& scene, const SurfacePoints& points, const ReferenceLight& light,
                     const SurfaceRadianceOptions& options, const Progress& progress = {});
 
@@ -94,7 +99,8 @@ public:
     /// Returns the exit radiance that the bands and bounces within the limits of `cut` cause: [points].
     /// Excludes direct light of ReferenceLight::suns. `half`: 0 or 1.
     std::vector<glm::vec3> under(const BandTruncation& cut, int half) const;
-    /// Returns the exit radiance by direct light of ReferenceLight::suns, with shadows: [points].
+    /// Returns the exit radiance for albedo 1 by direct light of ReferenceLight::suns on the front side, with
+    /// shadows: [points]. Excludes light that thin sheets transmit from their back sides.
     std::span<const glm::vec3> suns() const { return suns_; }
 
 private:

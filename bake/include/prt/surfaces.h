@@ -30,11 +30,13 @@ struct Scattering {
 
 /// Properties of a scene. Each member is true if at least one surface of the scene has the property.
 struct SurfaceTraits {
-    bool alpha = false;        ///< the surface lets rays pass: it is cut out, blended, or glass
-    bool textured = false;     ///< scattering varies over the surface by textures or vertex colors, or the
-                               ///< surface lets rays pass
+    bool alpha = false;        ///< the surface can let rays pass: it is cut out, blended, or glass (not
+                               ///< `opaque`)
+    bool textured = false;     ///< scattering can vary over the surface by textures or vertex colors, or the
+                               ///< surface can let rays pass
     bool transmission = false; ///< the surface transmits diffuse light as a thin sheet
-    bool color = false;        ///< the surface reflects or transmits red, green and blue differently
+    bool color = false;        ///< the base color or its texture, the vertex colors, or the color of light
+                               ///< that a thin sheet transmits is not grey
     bool scattering = false;   ///< the surface reflects or transmits any diffuse light
 };
 
@@ -70,7 +72,8 @@ public:
 
     /// Returns whether the texture of `use` is loaded and `vertices` have the UV set that it needs.
     bool has_texture(const VertexArray& vertices, const TextureUse& use) const;
-    /// Returns whether the triangle stops all rays: `coverage` is 1 at all its points.
+    /// Returns whether the triangle certainly stops all rays: `coverage` is then 1 at all its points. False
+    /// if a texture or vertex colors can let rays pass; their values are not evaluated.
     bool opaque(std::uint32_t triangle) const { return kinds_[triangles_[triangle].primitive].opaque; }
     /// Returns whether both sides of the triangle scatter light: its material is double-sided, or it is a
     /// thin sheet. If false, the back of the triangle is black.
@@ -88,12 +91,12 @@ public:
     /// Returns the diffuse scattering of the part of the surface that stops rays, at `point`.
     Scattering scattering(const SurfacePoint& point) const;
     /// Returns the scattering that all points of the triangle share; no value if textures or vertex colors
-    /// vary it.
+    /// can vary it.
     std::optional<Scattering> constant_scattering(std::uint32_t triangle) const {
         return kinds_[triangles_[triangle].primitive].constant;
     }
-    /// Returns the radiance that the surface emits at `point`, linear Rec. 709. It applies to the front, and
-    /// to the back if the material is double-sided; the caller checks the side.
+    /// Returns the radiance that the surface emits at `point`, linear Rec. 709; 0 unless `emits`. It applies
+    /// to the front, and to the back if the material is double-sided; the caller checks the side.
     glm::vec3 emission(const SurfacePoint& point) const;
     /// Returns the base color at `point`, linear Rec. 709: factor times texture times vertex color, without
     /// alpha.

@@ -21,8 +21,8 @@ enum class AtlasMode {
 /// Settings for the size of textures, and for the surfaces that share one.
 struct TexelOptions {
     int size = 0;         ///< texels per side of every texture, 1..kMaxTexels; 0: `per_metre` determines it
-    double per_metre = 0; ///< texels per metre along an axis, on average over a texture; used and greater
-                          ///< than 0 if `size` is 0
+    double per_metre = 0; ///< texels per metre along an axis, on average over a texture; used only if `size`
+                          ///< is 0, then finite and greater than 0; a texture has at least 4 texels per side
     int uv_set = 1;       ///< n of the existing UV set TEXCOORD_n; `unwrap` ignores it
     AtlasMode atlases = AtlasMode::automatic; ///< surfaces that share a texture
 };
@@ -35,7 +35,7 @@ struct Atlas {
     int uv_set = 1;                      ///< n of the UV set TEXCOORD_n of these primitives
     int width = 0,                       ///< number of texels along u
         height = 0;                      ///< number of texels along v
-    bool repeats = false; ///< true: some triangles have UVs outside 0..1, where the texture repeats
+    bool repeats = false; ///< true: the UVs of some triangles are outside 0..1, where the texture repeats
 
     std::size_t texels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
 };
@@ -46,9 +46,11 @@ inline LightmapSize size_of(const Atlas& atlas) {
 }
 
 /// Returns square textures that together contain every primitive of `scene` once, with their existing UV set.
-/// Throws `Error` for options out of range, for primitives without this UV set, if the UVs of a triangle
-/// cross the border of the texture, if charts overlap (see `AtlasMode`), and if `per_metre` needs more than
-/// kMaxTexels per side.
+/// `scene` must have a triangle. Throws `Error` for options out of range, for primitives without this UV set,
+/// if the UVs of a triangle cross the border of the texture, if the UVs of a texture have no area, if more
+/// than 0.1 % of the area of the charts of a texture overlaps, and if `per_metre` needs more than kMaxTexels
+/// per side. With AtlasMode::automatic, all these errors, except overlaps, also apply to one texture for all
+/// surfaces.
 std::vector<Atlas> plan_atlases(const Scene& scene, const TexelOptions& options);
 
 } // namespace prt

@@ -19,7 +19,7 @@ using VectorSink = std::function<void(std::uint32_t receiver, std::span<const fl
 /// Traces the receivers with the indices `indices` and calls `vectors` with the direct transfer of each, in
 /// the order of `indices`. `sink`, if not empty, gets the hits of each receiver, and the tracer must then
 /// support hits (Tracer::notes_hits). Throws `Cancelled` after a stop request, which is checked before each
-/// batch, and the errors of Tracer::trace.
+/// batch and at the end, and the errors of Tracer::trace.
 void trace_receivers(Tracer& tracer, const Receivers& receivers, std::span<const std::uint32_t> indices,
                      const TraceOptions& options, const VectorSink& vectors, const Progress& progress = {},
                      const ReceiverSink& sink = {});
@@ -32,7 +32,7 @@ HitSink sink_of(std::span<const std::uint32_t> batch, const ReceiverSink& sink);
 /// Calls `work` for consecutive parts of `indices`, one after another on the calling thread. A part has
 /// tracer.batch_size(options) indices, or fewer at the end. The second argument of `work` is the range of
 /// `progress` that belongs to the part. Throws `Cancelled` after a stop request, which is checked before each
-/// part.
+/// part and at the end, and the errors of `work`.
 void in_batches(const Tracer& tracer, std::span<const std::uint32_t> indices, const TraceOptions& options,
                 const Progress& progress,
                 const std::function<void(std::span<const std::uint32_t>, const Progress&)>& work);
@@ -63,9 +63,10 @@ struct TracedHalves {
 };
 
 /// Traces the receivers with the indices `indices` and replaces their vectors in both members of `to`. The
-/// results estimate the noise of the rays. The first half has `first_half(options.rays)` rays, which must not
-/// be 0. The tracer must support ranges of rays (Tracer::notes_hits). `sink`, if not empty, gets the hits of
-/// each receiver. Throws `Cancelled` after a stop request, and the errors of Tracer::trace.
+/// difference of the two results serves for an estimate of the noise of the rays. The first half has
+/// `first_half(options.rays)` rays, which must not be 0. The tracer must support ranges of rays
+/// (Tracer::notes_hits). `sink`, if not empty, gets the hits of each receiver. Throws `Cancelled` after a
+/// stop request, and the errors of Tracer::trace.
 void trace_in_halves(Tracer& tracer, const Receivers& receivers, std::span<const std::uint32_t> indices,
                      const TraceOptions& options, const TracedHalves& to, const Progress& progress = {},
                      const HalvesSink& sink = {});

@@ -37,8 +37,8 @@ public:
     const Surfaces& surfaces() const { return surfaces_; }
     /// Returns TraceSceneOptions::threads; 0: all.
     int threads() const { return threads_; }
-    /// Returns the hierarchy of triangles. The first call builds the hierarchy, and then throws `Error` if
-    /// memory runs out.
+    /// Returns the hierarchy of triangles. The first call builds the hierarchy, and throws the errors of
+    /// RayScene::RayScene if it fails; the next call then tries again.
     const RayScene& rays() const {
         std::call_once(built_, [this] { rays_.emplace(scene_, threads_); });
         return *rays_;

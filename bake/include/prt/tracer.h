@@ -26,14 +26,16 @@ struct LampTask;
 /// the same rays as tracing 0..127.
 struct TraceOptions {
     int order = 6;          ///< order of the transfer
-    int rays = 1024;        ///< number of rays per receiver; for BakeMethod::raster the number of directions
+    int rays = 1024;        ///< number of rays per receiver, at least 1; for BakeMethod::raster the number of
+                            ///< directions
     std::uint64_t seed = 0; ///< seed of the sequence of rays
     /// Index of the first ray in the sequence: a multiple of the smallest power of two that is at least
     /// `rays`, or a multiple of 1024 if `rays` is larger than 1024.
     std::uint32_t first_ray = 0;
     /// For calls with a sink: one of `hit_stride` rays is traced to its nearest hit, and the sink gets this
     /// hit. All other rays only test whether they are blocked; the weights of the hits represent them. 1: all
-    /// rays are traced to their hits, as always in scenes with cut-out, blended or glass surfaces.
+    /// rays are traced to their hits. For every value, all rays are traced to their hits in scenes with
+    /// cut-out, blended or glass surfaces, and with a distance fall-off.
     int hit_stride = 1;
 };
 
@@ -71,22 +73,26 @@ public:
     virtual std::size_t batch_size(const TraceOptions& options) const = 0;
     /// Computes the direct transfer with shadows (docs/math.md, eq. 9) of the receivers with the indices
     /// `indices`, and writes it to `vectors`: [indices][order²], in the order of `indices`. `sink`, if not
-    /// empty, gets the hits of each receiver. Tracers on a GPU report to `progress` and throw `Cancelled`
-    /// after a stop request; the tracer on the CPU ignores `progress`. Throws `Error` if a GPU fails.
+    /// empty, gets the hits of each receiver; it must be empty unless `notes_hits()`. The receivers must have
+    /// normals that are not zero. Tracers on a GPU report to `progress` and throw `Cancelled` after a stop
+    /// request; the tracer on the CPU ignores `progress`. Throws `Error` if a GPU fails, unless the tracer
+    /// continues on the CPU (Backend::automatic).
     virtual void trace(const Receivers& receivers, std::span<const std::uint32_t> indices,
                        const TraceOptions& options, std::span<float> vectors, const HitSink& sink = {},
                        const Progress& progress = {}) = 0;
     /// Computes direct light of lamps at receivers. For the baker only: the types are in the internal header
-    /// bake/trace/lamp_light.h. All tracers use the same rays. Throws `Cancelled` after a stop request.
+    /// bake/trace/lamp_light.h. All tracers use the same rays. Throws `Cancelled` after a stop request, and
+    /// `Error` if a GPU fails, unless the tracer continues on the CPU.
     virtual LampLight lamp_light(const LampTask& task, const Progress& progress) = 0;
     /// Creates an object that computes bounces on the GPU, and keeps a reference to `gather`. For the baker
-    /// only: the types are in the internal header bake/trace/gather_product.h. Returns null if the CPU
-    /// must compute the bounces: always on a CPU, and on a GPU with too little memory.
+    /// only: the types are in the internal header bake/trace/gather_product.h. Returns null if the CPU must
+    /// compute the bounces: always unless a GPU traces the rays without a distance fall-off, and on a GPU
+    /// with too little memory. Throws `Error` if a GPU fails, unless the tracer continues on the CPU.
     virtual std::unique_ptr<GatherProduct> gather_product(const GatherOperator& gather);
     /// Creates weighted sums of transfer vectors [order²] on the GPU, one sum for each entry of `weights`.
     /// `weights` [sums]: total weight of the vectors that will be added to the sum. For the baker only: the
-    /// type is in the internal header bake/trace/vector_sums.h. Returns null if the CPU must compute the
-    /// sums: always on a CPU, and on a GPU with too little memory.
+    /// type is in the internal header bake/trace/vector_sums.h. Returns null and throws under the same
+    /// conditions as `gather_product`; the CPU must then compute the sums.
     virtual std::unique_ptr<VectorSums> vector_sums(int order, std::span<const float> weights);
     /// Returns the time of all calls since this tracer was created.
     TraceSeconds seconds() const { return seconds_; }
