@@ -119,8 +119,6 @@ std::string listed(std::span<const GpuDevice> devices) {
     return names;
 }
 
-/// Returns the device with a number or with a part of a name. Throws `Error` if none or several match.
-
 /// Returns the best of the suitable devices: hardware before software, and then the largest memory.
 std::size_t best_device(std::span<const GpuDevice> devices, bool hardware_only) {
     std::optional<std::size_t> best;

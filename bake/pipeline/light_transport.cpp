@@ -153,7 +153,7 @@ double remaining_after(const BounceEnergy& energy, double total) {
 /// Computes `bounces` bounces on the device, if light does not change between them.
 std::optional<Propagated> bounce_on_device(Transfer& transfer, const TransportOperators& operators,
                                            int bounces, int threads, const Progress& progress) {
-    if (!operators.product || operators.fit || !operators.diffusion.empty() || operators.refill.size() > 0)
+    if (!operators.product || operators.fit || !operators.diffusion.empty() || !operators.refill.empty())
         return std::nullopt;
     std::vector<std::vector<float>> optional_work;
     if (!operators.optional_work.empty()) {

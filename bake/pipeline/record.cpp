@@ -25,7 +25,7 @@ std::vector<std::string> notices_of(const BakePlan& plan, const DirectLight& dir
                                     const Propagated& exit) {
     std::vector<std::string> notices = plan.notices;
     notices.insert(notices.end(), direct.notices.begin(), direct.notices.end());
-    const std::size_t refilled = sealed.refill.size();
+    const std::size_t refilled = sealed.refill.size(plan.transport->fronts);
     if (!sealed.receivers.empty())
         notices.push_back(fmt::format("{} inside solid geometry; {} from neighbours{}",
                                       counted(sealed.receivers.size(), "vertex is", "vertices are"),
@@ -46,7 +46,7 @@ BakeStatistics statistics_of(const BakePlan& plan, const DirectLight& direct, co
                    .traced = traced_fronts(plan),
                    .back_sides = plan.receivers().size() - fronts,
                    .sealed = sealed.receivers.size(),
-                   .refilled = sealed.refill.size()};
+                   .refilled = sealed.refill.size(fronts)};
     s.rays = direct.rays + sealed.rays;
     s.mean_visibility = direct.mean_visibility;
     s.sampling_error = direct.sampling_error;

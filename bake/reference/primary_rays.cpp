@@ -39,7 +39,7 @@ struct NextRays {
 std::optional<glm::vec4> filtered_texel(const Picture& picture, const VertexArray& vertices,
                                         const TextureUse& use, const Corners& corners, const glm::uvec3& t,
                                         const glm::vec2& uv, const NextRays& next) {
-    if (use.image < 0 || is_missing(use, picture.textures) ||
+    if (use.image < 0 || picture.textures.empty() || is_missing(use, picture.textures) ||
         static_cast<std::size_t>(use.texcoord) >= vertices.texcoords.size())
         return std::nullopt;
     const auto& set = vertices.texcoords[static_cast<std::size_t>(use.texcoord)];

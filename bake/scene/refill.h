@@ -30,7 +30,12 @@ public:
                     to[i] += values[source * stride + i] / static_cast<Value>(step.sources.size());
         }
     }
-    std::size_t size() const { return steps_.size(); }
+    bool empty() const { return steps_.empty(); }
+    /// Returns the number of filled receivers below `receivers`.
+    std::size_t size(std::size_t receivers) const {
+        return static_cast<std::size_t>(
+            std::ranges::count_if(steps_, [&](const Step& step) { return step.receiver < receivers; }));
+    }
 
 private:
     struct Step {

@@ -91,7 +91,7 @@ private:
                            .fitted = setup.fitted,
                            .traversal = setup.traversal};
         double per_ray = 0;
-        for (int rays = options_.fewest_rays; rays <= options_.max_rays; rays *= 2) {
+        for (int rays = std::max(1, options_.fewest_rays); rays <= options_.max_rays; rays *= 2) {
             const double expected = per_ray * rays;
             if (expected > options_.max_seconds) {
                 series.left_out =

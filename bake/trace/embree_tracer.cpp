@@ -111,7 +111,8 @@ Hit hit_of(const Plan& plan, const glm::vec3& normal, const RTCRayHit16& packet,
         // Directions have density cos/pi: each of n rays represents a solid angle of pi/(n cos).
         footprint = std::numbers::pi_v<float> * distance * distance * glm::length(face) /
                     (static_cast<float>(plan.options.rays) * glm::dot(normal, direction) * std::abs(facing));
-    footprint *= static_cast<float>(plan.options.hit_stride);
+    if (!plan.surfaces.traits().alpha) // with alpha every ray is traced to its hit
+        footprint *= static_cast<float>(plan.options.hit_stride);
     return plan.rays.opposites().shown(
         {packet.hit.primID[lane], packet.hit.u[lane], packet.hit.v[lane], weight, footprint, facing > 0});
 }

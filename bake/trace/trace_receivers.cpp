@@ -101,7 +101,10 @@ void trace_in_halves(Tracer& tracer, const Receivers& receivers, std::span<const
         std::vector<std::size_t> of_half(hits.size());
         std::vector<float> vectors(batch.size() * dimension);
         for (std::size_t k = 0; k < parts.size(); ++k) {
+            std::vector<std::size_t> before(hits.size());
+            std::ranges::transform(hits, before.begin(), &std::vector<Hit>::size);
             const HitSink keep = [&](std::size_t i, std::span<const Hit> more) {
+                hits[i].resize(before[i]); // the CPU repeats a call in which a GPU failed
                 hits[i].insert(hits[i].end(), more.begin(), more.end());
                 if (k == 0)
                     of_half[i] = hits[i].size();

@@ -102,8 +102,9 @@ gpu::TracePush VulkanTracer::next(const TraceJob& job, std::size_t receiver, std
     push.first_ray = job.options.first_ray;
     push.whole_followed = static_cast<std::uint32_t>(job.hits ? job.whole.followed : 0);
     push.last_followed = static_cast<std::uint32_t>(job.hits ? job.last.followed : 0);
+    const int stride = scene_on_gpu_.has_alpha() ? 1 : job.stride(); // with alpha every ray has a hit
     push.spread =
-        std::numbers::pi_v<float> * static_cast<float>(job.stride()) / static_cast<float>(job.options.rays);
+        std::numbers::pi_v<float> * static_cast<float>(stride) / static_cast<float>(job.options.rays);
     return push;
 }
 

@@ -250,19 +250,19 @@ EdgeJumps edge_jumps(std::span<const Edge> edges, std::span<const double> jumps,
     result.edges = edges.size();
     if (edges.empty())
         return result;
-    std::vector<float> optional_work(edges.size());
+    std::vector<float> weights(edges.size());
     double area = 0, squares = 0;
     for (std::size_t e = 0; e < edges.size(); ++e) {
-        optional_work[e] = areas[edges[e].first] + areas[edges[e].second];
-        area += static_cast<double>(optional_work[e]);
-        squares += static_cast<double>(optional_work[e]) * jumps[e] * jumps[e];
+        weights[e] = areas[edges[e].first] + areas[edges[e].second];
+        area += static_cast<double>(weights[e]);
+        squares += static_cast<double>(weights[e]) * jumps[e] * jumps[e];
     }
     const auto largest = std::ranges::max_element(jumps);
     result.max = *largest;
     result.worst = edges[static_cast<std::size_t>(largest - jumps.begin())];
     if (area > 0) {
         result.rms = std::sqrt(squares / area);
-        result.percentile_99 = percentile_by_area(jumps, optional_work, area, 0.99);
+        result.percentile_99 = percentile_by_area(jumps, weights, area, 0.99);
     }
     return result;
 }

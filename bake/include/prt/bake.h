@@ -95,7 +95,7 @@ struct BakeStatistics {
         std::size_t back_sides = 0; ///< additional receivers on back sides of surfaces that scatter light on
                                     ///< both sides; the result does not contain them
         std::size_t sealed = 0;     ///< receivers of the scene inside solid geometry, where no light arrives
-        std::size_t refilled = 0;   ///< sealed receivers, including back sides, that took the values of their
+        std::size_t refilled = 0;   ///< sealed receivers that took the values of their
                                     ///< neighbours
     };
     /// Wall-clock time of the stages of the bake in seconds.

@@ -205,7 +205,7 @@ void InstanceLight::find_sealed_in(const Progress& progress) {
 
 void InstanceLight::bounce(const Progress& progress) {
     if (!bounce_.gather) {
-        if (bounce_.refill.size() > 0) {
+        if (!bounce_.refill.empty()) {
             std::vector<float> all(plan_.receivers().size() * sizes_.count);
             for (std::size_t o = 0; o < receivers_.own.size(); ++o)
                 std::copy_n(&own_.direct[o * sizes_.count], sizes_.count,

@@ -46,8 +46,8 @@ struct StepExponents {
 
 /// Coded form of `ClusteredBases::rows` (docs/format.md). Each row is a sum over a few axes, vectors of
 /// integers that all clusters share: row = units · sum_i step · scales[i] · values[i] · axes[i], by
-/// coefficient. Basis directions use twice the step. `origin` is added to means. `exponents` change the step.
-/// dimension = `TransferLayout::dimension`.
+/// coefficient. Basis directions use twice the step. `origin` is added to means, after the factors `units`.
+/// `exponents` change the step. dimension = `TransferLayout::dimension`.
 struct CodedBases {
     std::vector<float> origin; ///< [dimension]; empty: there is no coded form
     std::vector<float> scales; ///< [axes] factor of each axis

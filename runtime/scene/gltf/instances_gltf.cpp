@@ -59,7 +59,10 @@ CodedFactors read_factors(const GltfContents& contents, const Json& json, std::s
 }
 
 StoredInstances read_stored(const GltfContents& contents) {
-    const Json& extension = *find_extension(contents, kInstancesExtension, kInstancesVersion);
+    const Json* found = find_extension(contents, kInstancesExtension, kInstancesVersion);
+    if (!found)
+        throw Error(std::string("has no extension ") + kInstancesExtension);
+    const Json& extension = *found;
     const auto count = static_cast<std::size_t>(
         whole_number(extension.at("count"), "the number of instances", 1, kMaxSharedInstances));
     StoredInstances stored{decoded(read_factors(contents, extension.at("factors"), count)), {}};

@@ -17,12 +17,14 @@ namespace {
 /// Extensions that a file may list in extensionsRequired. Extensions of materials and lights change only
 /// reflection, and the base color is used instead. Missing textures of other formats are an error only if
 /// they are needed.
-constexpr std::array<std::string_view, 35> kSupportedExtensions = {
+constexpr std::array<std::string_view, 37> kSupportedExtensions = {
     kTransferExtension,
     kClusteredExtension,
     kLightmapExtension,
     kVolumeExtension,
     kInstancesExtension,
+    kLobeExtension,
+    kOccluderExtension,
     kMeshoptExtension,
     kDracoExtension,
     "EXT_mesh_gpu_instancing",
@@ -87,7 +89,7 @@ std::vector<std::string> unused_lights(const GltfDocument& document) {
     if (const auto nodes = json.find("nodes"); nodes != json.end())
         for (const Json& node : *nodes)
             if (const Json* light = extension_of(node, "KHR_lights_punctual");
-                light && light->contains("light"))
+                light && light->contains("light") && light->at("light").is_number_unsigned())
                 used.insert(light->at("light").get<std::size_t>());
     const Json& lights = extension->at("lights");
     for (std::size_t i = 0; i < lights.size(); ++i)

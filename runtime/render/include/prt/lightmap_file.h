@@ -26,9 +26,10 @@ void write_lightmap(GltfDocument& document, const Scene& scene, const Compressed
 std::optional<CompressedLightmap> read_compressed_lightmap(const GltfDocument& document, const Scene& scene);
 
 /// Returns a lightmap whose receivers are all texels of the maps, as a game loads them. `compressed`: the
-/// compressed transfer of `baked`, with the same receivers. Texel baked.texels[i] gets receiver i; every
-/// other texel gets the nearest receiver of the same map (`nearest_receivers`). In a map without receivers,
-/// the cluster index and all bytes of the weights are 0.
+/// compressed transfer of `baked`, with the same receivers; it must have no predictors, because texels do not
+/// support them. Texel baked.texels[i] gets the cluster index and the weights of receiver i; every other
+/// texel gets those of the nearest receiver of the same map (`nearest_receivers`). In a map without
+/// receivers, the cluster index and all bytes of the weights are 0.
 CompressedLightmap scatter_to_maps(const BakedLightmap& baked, ClusteredTransfer compressed);
 
 /// Returns a value for every texel of the maps, [layout.texels()]. Texel texels[i] gets values[i]; every

@@ -11,7 +11,7 @@ namespace prt {
 
 /// Returns the names of the extensions that `extensionsUsed` of the file lists and prtkit does not support,
 /// in the order of the list. Some extensions that prtkit ignores count as supported, for example those of
-/// specular reflection. PRTKIT_lobes and PRTKIT_occlusion_volume are in the result if the file lists them.
+/// specular reflection.
 std::vector<std::string> unread_extensions(const GltfDocument& document);
 
 /// Returns descriptions of the lights of KHR_lights_punctual that no node of the file refers to, in the order

@@ -77,8 +77,8 @@ enum class LightmapPass {
 };
 
 /// Returns the complete shader of a pass that computes the exit radiance, for albedo 1, of the texels of a
-/// lightmap. `transfer` must have packed weights. Throws the errors of `relight_defines`, and `Error` for
-/// LightmapPass::compute in OpenGL 3.3 and ES 3.0.
+/// lightmap. `transfer` must have packed weights and no predictors. Throws the errors of `relight_defines`,
+/// and `Error` for LightmapPass::compute in OpenGL 3.3 and ES 3.0.
 std::string lightmap_shader(const ClusteredTransfer& transfer, LightmapPass pass, ConstantSource constants,
                             ShaderLanguage language);
 

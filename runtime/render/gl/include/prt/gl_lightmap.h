@@ -27,7 +27,8 @@ struct GlLightmapTextures {
 class GlLightmap {
 public:
     /// Uploads the weights of the texels and the clusters. Keeps a reference to `lightmap.layout`, which must
-    /// outlive this object. The weights must be packed. Textures are undefined until `set_light`. Throws
+    /// outlive this object. The weights must be packed, and the transfer must have no
+    /// predictors. Textures are undefined until `set_light`. Throws
     /// `Error` if the layout of the transfer is invalid, a texel has more words than shaders support, the
     /// device does not support textures of the size of a map, GPU memory runs out, or the driver cannot build
     /// the program.
