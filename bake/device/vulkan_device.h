@@ -5,7 +5,7 @@
 #include "prt/gpu_devices.h"
 #include "prt/gpu_failure.h"
 #include "prt/support/error.h"
-#include "prt/tracer_choice.h"
+#include "prt/bake_options.h"
 
 #include <vulkan/vulkan_raii.hpp>
 

@@ -2,7 +2,7 @@
 
 #include "pipeline/bright_patches.h"
 
-#include "prt/color.h"
+#include "prt/light.h"
 #include "surface_fit/surface_samples.h"
 
 #include <glm/geometric.hpp>

@@ -2,7 +2,7 @@
 
 #include "prt/distant_light.h"
 
-#include "prt/color.h"
+#include "prt/light.h"
 
 #include <glm/geometric.hpp>
 

@@ -2,7 +2,7 @@
 
 #include "prt/light_meter.h"
 
-#include "prt/color.h"
+#include "prt/light.h"
 #include "prt/lightmap_lookup.h"
 #include "reference/sun_light.h"
 

@@ -3,7 +3,7 @@
 
 #include "prt/scene_lamps.h"
 
-#include "prt/color.h"
+#include "prt/light.h"
 #include "prt/support/counted.h"
 #include "prt/support/error.h"
 #include "scene/punctual.h"

@@ -1,6 +1,6 @@
 // Distance fall-off of occlusion.
 
-#include "prt/falloff.h"
+#include "prt/bake_options.h"
 
 #include "prt/support/error.h"
 

@@ -1,7 +1,7 @@
 // The dipole and the measured media of H. W. Jensen, S. R. Marschner, M. Levoy, P. Hanrahan, "A Practical
 // Model for Subsurface Light Transport", SIGGRAPH 2001.
 
-#include "prt/subsurface.h"
+#include "prt/bake_options.h"
 
 #include "prt/light_passing.h"
 

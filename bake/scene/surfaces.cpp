@@ -3,7 +3,7 @@
 
 #include "prt/surfaces.h"
 
-#include "prt/color.h"
+#include "prt/light.h"
 #include "prt/light_passing.h"
 #include "prt/tone_map.h"
 #include "scene/interpolated.h"

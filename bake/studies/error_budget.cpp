@@ -4,7 +4,7 @@
 #include "prt/error_budget.h"
 
 #include "prt/bake.h"
-#include "prt/color.h"
+#include "prt/light.h"
 #include "prt/error_measures.h"
 
 #include <glm/geometric.hpp>

@@ -2,7 +2,7 @@
 
 #include "trace/choose_lamps.h"
 
-#include "prt/color.h"
+#include "prt/light.h"
 #include "prt/support/error.h"
 #include "prt/support/printable.h"
 

@@ -2,7 +2,7 @@
 
 #include "trace/lamp_rays.h"
 
-#include "prt/color.h"
+#include "prt/light.h"
 #include "scene/punctual.h"
 #include "scene/transmittance.h"
 #include "trace/disc_share.h"

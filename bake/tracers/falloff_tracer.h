@@ -2,7 +2,7 @@
 
 // Tracer with a distance fall-off of occlusion.
 
-#include "prt/falloff.h"
+#include "prt/bake_options.h"
 #include "prt/trace_scene.h"
 #include "prt/tracer.h"
 

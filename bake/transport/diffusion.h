@@ -4,7 +4,7 @@
 // Hierarchical Rendering Technique for Translucent Materials", SIGGRAPH 2002. Cost grows as n log n.
 
 #include "prt/receivers.h"
-#include "prt/subsurface.h"
+#include "prt/bake_options.h"
 
 #include <glm/vec3.hpp>
 

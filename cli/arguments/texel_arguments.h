@@ -4,7 +4,7 @@
 
 #include "pipeline/model.h"
 #include "program/session.h"
-#include "prt/occlusion_maps.h"
+#include "prt/ambient_occlusion.h"
 #include "prt/texels.h"
 #include "report/report.h"
 

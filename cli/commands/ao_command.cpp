@@ -12,7 +12,7 @@
 #include "program/session.h"
 #include "prt/encode_glb.h"
 #include "prt/image_file.h"
-#include "prt/occlusion_maps.h"
+#include "prt/ambient_occlusion.h"
 #include "prt/support/stopwatch.h"
 
 #include <fmt/core.h>

@@ -17,7 +17,7 @@
 #include "program/session.h"
 #include "prt/encode_glb.h"
 #include "prt/lightmap_bake.h"
-#include "prt/lightmap_gltf.h"
+#include "prt/instances_gltf.h"
 #include "prt/refine.h"
 #include "prt/support/error.h"
 #include "report/bake_report.h"

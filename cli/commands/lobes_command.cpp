@@ -10,7 +10,7 @@
 #include "prt/encode_glb.h"
 #include "prt/light_metric.h"
 #include "prt/lobe_fit.h"
-#include "prt/lobe_gltf.h"
+#include "prt/instances_gltf.h"
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"
 

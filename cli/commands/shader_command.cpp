@@ -6,14 +6,10 @@
 #include "program/outputs.h"
 #include "program/session.h"
 #include "program/terminal.h"
-#include "prt/instance_shader.h"
-#include "prt/lobe_shader.h"
-#include "prt/occlusion_volume.h"
-#include "prt/shader_bindings.h"
 #include "prt/shader_source.h"
+#include "prt/occlusion_volume.h"
 #include "prt/support/error.h"
 #include "prt/support/printable.h"
-#include "prt/volume_shader.h"
 
 #include <fmt/core.h>
 #include <glm/vec4.hpp>

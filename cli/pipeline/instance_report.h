@@ -1,7 +1,7 @@
 #pragma once
 
 #include "pipeline/instance_sharing.h"
-#include "prt/instance_relighter.h"
+#include "prt/instances.h"
 #include "report/report.h"
 
 #include <cstdint>

@@ -3,7 +3,7 @@
 #include "pipeline/lamp_strengths.h"
 
 #include "pipeline/model.h"
-#include "prt/color.h"
+#include "prt/light.h"
 #include "prt/json_file.h"
 #include "prt/sh.h"
 #include "prt/sh_basis.h"

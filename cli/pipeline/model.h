@@ -9,10 +9,7 @@
 #include "prt/instances_gltf.h"
 #include "prt/light.h"
 #include "prt/lightmap.h"
-#include "prt/lobe_gltf.h"
-#include "prt/occluder_gltf.h"
 #include "prt/support/error.h"
-#include "prt/volume_gltf.h"
 
 #include <optional>
 #include <string>

@@ -2,7 +2,7 @@
 
 #include "pipeline/occluders.h"
 
-#include "prt/occluder_gltf.h"
+#include "prt/instances_gltf.h"
 #include "prt/rigid_parts.h"
 #include "prt/support/error.h"
 

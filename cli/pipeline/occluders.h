@@ -1,7 +1,7 @@
 #pragma once
 
 #include "prt/gltf.h"
-#include "prt/occluder_bake.h"
+#include "prt/ambient_occlusion.h"
 #include "report/report.h"
 
 namespace prt::pipeline {

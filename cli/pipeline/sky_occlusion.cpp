@@ -2,7 +2,7 @@
 
 #include "pipeline/sky_occlusion.h"
 
-#include "prt/color.h"
+#include "prt/light.h"
 #include "prt/error_measures.h"
 
 #include <glm/common.hpp>

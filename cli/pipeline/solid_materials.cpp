@@ -2,7 +2,7 @@
 
 #include "pipeline/solid_materials.h"
 
-#include "prt/subsurface.h"
+#include "prt/bake_options.h"
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 #include "pipeline/traced_picture.h"
 
 #include "pipeline/budget_lights.h"
-#include "prt/color.h"
+#include "prt/light.h"
 #include "prt/receiver_colors.h"
 
 #include <algorithm>

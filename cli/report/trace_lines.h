@@ -1,6 +1,6 @@
 #pragma once
 
-#include "prt/compress_trace.h"
+#include "prt/compress.h"
 #include "report/report.h"
 
 #include <string>

@@ -4,7 +4,7 @@
 #include "coding/alternation.h"
 
 #include "coding/refit.h"
-#include "prt/coded_rows.h"
+#include "prt/clustered_bases.h"
 
 #include <algorithm>
 #include <cmath>

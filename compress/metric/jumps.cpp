@@ -5,7 +5,7 @@
 #include "metric/color_blocks.h"
 #include "metric/rotated_lighting.h"
 #include "metric/transfer_columns.h"
-#include "prt/color.h"
+#include "prt/light.h"
 #include "prt/error_measures.h"
 #include "prt/support/error.h"
 #include "prt/support/parallel.h"

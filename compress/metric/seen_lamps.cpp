@@ -3,7 +3,7 @@
 #include "metric/seen_lamps.h"
 
 #include "metric/transfer_columns.h"
-#include "prt/color.h"
+#include "prt/light.h"
 #include "prt/error_measures.h"
 #include "tuning/tuning.h"
 

@@ -4,8 +4,7 @@
 #include "prt/standard_skies.h"
 
 #include "prt/sh.h"
-#include "prt/sky.h"
-#include "prt/sun.h"
+#include "prt/light.h"
 #include "tuning/tuning.h"
 
 #include <glm/trigonometric.hpp>

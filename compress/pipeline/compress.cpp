@@ -134,7 +134,7 @@ void leave_logarithms(const Task& task, Coding& coding, ClusterLists& candidates
 }
 
 /// Returns the clusters with receivers, sorted by the mean of their first and last receiver. Clusters of one
-/// mesh are then consecutive, so that its instances need few constants (prt/instance_relighter.h).
+/// mesh are then consecutive, so that its instances need few constants (prt/instances.h).
 std::vector<std::uint32_t> clusters_in_order(std::span<const std::uint32_t> of_receivers, std::size_t count) {
     std::vector<std::size_t> first(count), last(count);
     std::vector<std::uint32_t> order;

@@ -9,7 +9,7 @@
 #include "prt/gl_context.h"
 #include "prt/image_file.h"
 #include "prt/picture_error.h"
-#include "prt/sun.h"
+#include "prt/light.h"
 
 #include <functional>
 #include <optional>

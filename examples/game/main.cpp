@@ -4,7 +4,7 @@
 // from the sky: the game draws it with its own shadow map, and transfer lights the rest.
 
 #include "prt/cluster_lighting.h"
-#include "prt/color.h"
+#include "prt/light.h"
 #include "prt/dering.h"
 #include "prt/gl_context.h"
 #include "prt/gltf.h"

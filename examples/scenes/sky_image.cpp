@@ -2,7 +2,7 @@
 
 #include "sky_image.h"
 
-#include "prt/sky.h"
+#include "prt/light.h"
 
 #include <glm/common.hpp>
 #include <glm/exponential.hpp>

@@ -3,7 +3,6 @@
 #include "boundary.h"
 #include "prt/sh.h"
 #include "prt/sh_rotation.h"
-#include "prt/sh_vector.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>

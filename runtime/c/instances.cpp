@@ -2,7 +2,7 @@
 
 #include "model.h"
 
-#include "prt/instance_shader.h"
+#include "prt/shader_source.h"
 #include "prt/instances_gltf.h"
 #include "prt/support/counted.h"
 

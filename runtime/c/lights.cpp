@@ -7,7 +7,6 @@
 #include "prt/light_file.h"
 #include "prt/sh.h"
 #include "prt/sh_rotation.h"
-#include "prt/sun.h"
 #include "prt/support/counted.h"
 
 #include <glm/geometric.hpp>

@@ -5,7 +5,7 @@
 #include "boundary.h"
 #include "prt/cluster_lighting.h"
 #include "prt/gltf.h"
-#include "prt/instance_relighter.h"
+#include "prt/instances.h"
 
 #include <optional>
 #include <string>

@@ -3,9 +3,9 @@
 #include "boundary.h"
 #include "prt/gltf.h"
 #include "prt/support/counted.h"
-#include "prt/volume_gltf.h"
+#include "prt/instances_gltf.h"
 #include "prt/volume_relighter.h"
-#include "prt/volume_shader.h"
+#include "prt/shader_source.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>

@@ -3,7 +3,7 @@
 #include "prt/suns.h"
 
 #include "disc_fit.h"
-#include "prt/color.h"
+#include "prt/light.h"
 #include "prt/sh.h"
 #include "prt/support/error.h"
 #include "shadowed_light.h"

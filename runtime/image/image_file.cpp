@@ -6,7 +6,6 @@
 #include "image_kind.h"
 #include "image_limits.h"
 #include "prt/image_size.h"
-#include "prt/srgb.h"
 #include "prt/support/error.h"
 #include "prt/support/file.h"
 #include "prt/support/lfs_pointer.h"

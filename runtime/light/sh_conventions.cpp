@@ -1,5 +1,5 @@
 // Converts lighting between prtkit, three.js, glTF and D3DX (docs/conventions.md).
-#include "prt/sh_conventions.h"
+#include "prt/light.h"
 
 #include "light/finite_light.h"
 #include "prt/sh.h"

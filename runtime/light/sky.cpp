@@ -1,5 +1,5 @@
 // Evaluates the clear sky of Preetham, Shirley and Smits (SIGGRAPH 1999), and projects it.
-#include "prt/sky.h"
+#include "prt/light.h"
 
 #include "prt/sh.h"
 #include "prt/support/error.h"

@@ -1,5 +1,5 @@
 // Computes suns as SH coefficients in closed form.
-#include "prt/sun.h"
+#include "prt/light.h"
 
 #include "prt/sh.h"
 #include "prt/support/error.h"

@@ -3,7 +3,7 @@
 
 #include "prt/flip.h"
 
-#include "prt/color.h"
+#include "prt/light.h"
 #include "prt/support/error.h"
 #include "prt/support/parallel.h"
 

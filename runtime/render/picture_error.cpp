@@ -2,7 +2,7 @@
 
 #include "prt/picture_error.h"
 
-#include "prt/color.h"
+#include "prt/light.h"
 #include "prt/error_measures.h"
 #include "prt/support/error.h"
 

@@ -1,7 +1,7 @@
 // Tone mapping by the rational fit of Narkowicz (2016) to the ACES curve, and averaging of samples.
 #include "prt/tone_map.h"
 
-#include "prt/color.h"
+#include "prt/light.h"
 
 #include <algorithm>
 #include <cmath>

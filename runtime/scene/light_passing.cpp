@@ -1,7 +1,7 @@
 // Transmission properties of materials.
 #include "prt/light_passing.h"
 
-#include "prt/color.h"
+#include "prt/light.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,6 @@
 // the polar angle, uniform in the azimuth. The nodes of one azimuth are the lanes of one vector.
 
 #include "prt/sh.h"
-#include "prt/sh_vector.h"
 #include "prt/support/vector_lanes.h"
 #include "sh/gauss_legendre.h"
 #include "sh/triple_product.h"

@@ -1,7 +1,6 @@
 // Evaluates SH vectors in directions.
-#include "prt/sh_vector.h"
-
 #include "prt/sh.h"
+
 
 #include <array>
 

@@ -1,5 +1,5 @@
 // Builds the shaders of instances that share transfer.
-#include "prt/instance_shader.h"
+#include "prt/shader_source.h"
 
 #include "prt/support/error.h"
 

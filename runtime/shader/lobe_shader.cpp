@@ -1,5 +1,5 @@
 // Builds the shaders of lobes.
-#include "prt/lobe_shader.h"
+#include "prt/shader_source.h"
 
 #include "defines.h"
 #include "prt/support/error.h"

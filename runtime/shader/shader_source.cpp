@@ -4,7 +4,6 @@
 
 #include "defines.h"
 #include "embedded_files.h"
-#include "prt/shader_bindings.h"
 #include "prt/support/error.h"
 
 #include <algorithm>

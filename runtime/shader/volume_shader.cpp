@@ -1,5 +1,5 @@
 // Builds the shaders of volumes.
-#include "prt/volume_shader.h"
+#include "prt/shader_source.h"
 
 #include "defines.h"
 #include "prt/support/error.h"

@@ -1,5 +1,5 @@
 // Codes rows of small integers (docs/format.md).
-#include "prt/coded_rows.h"
+#include "prt/clustered_bases.h"
 
 #include "prt/support/error.h"
 #include "transfer/range_coder.h"

@@ -1,7 +1,7 @@
 // The measures of docs/math.md, section 6: errors of transfer, and of exit radiance under a light.
 #include "prt/error_measures.h"
 
-#include "prt/color.h"
+#include "prt/light.h"
 #include "prt/support/error.h"
 
 #include <glm/geometric.hpp>

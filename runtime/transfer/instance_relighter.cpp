@@ -1,7 +1,7 @@
 // Computes constants of instances: constants of each mode in each rotation, times the factors of the
 // instances with that rotation.
 
-#include "prt/instance_relighter.h"
+#include "prt/instances.h"
 
 #include "prt/support/counted.h"
 #include "prt/support/error.h"

@@ -1,7 +1,7 @@
 // Computes radiance of texels tile by tile: two rows at a time stay in the cache until they and the row of
 // the next level are written.
 
-#include "prt/lightmap_relighter.h"
+#include "prt/lightmap.h"
 
 #include "prt/support/parallel.h"
 #include "transfer/evaluate_range.h"

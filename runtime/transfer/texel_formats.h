@@ -2,7 +2,7 @@
 
 // Conversion of radiance to texture formats, sixteen texels at a time.
 
-#include "prt/lightmap_relighter.h"
+#include "prt/lightmap.h"
 #include "prt/support/vector_lanes.h"
 
 #include <bit>

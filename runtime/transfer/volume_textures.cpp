@@ -1,5 +1,5 @@
 // Builds the texture layouts of volumes for shaders.
-#include "prt/volume_textures.h"
+#include "prt/volume_relighter.h"
 
 #include "prt/volume_weights.h"
 

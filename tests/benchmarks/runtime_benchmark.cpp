@@ -4,10 +4,9 @@
 #include "prt/cluster_lighting.h"
 #include "prt/dering.h"
 #include "prt/environment.h"
-#include "prt/lightmap_relighter.h"
+#include "prt/lightmap.h"
 #include "prt/sh.h"
 #include "prt/sh_rotation.h"
-#include "prt/sh_vector.h"
 #include "prt/volume_relighter.h"
 
 #include <benchmark/benchmark.h>

@@ -2,7 +2,7 @@
 
 #include "pipeline.h"
 #include "prt/image_file.h"
-#include "prt/lobe_gltf.h"
+#include "prt/instances_gltf.h"
 #include "support/glb_file.h"
 
 #include <glm/geometric.hpp>

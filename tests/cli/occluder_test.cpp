@@ -2,7 +2,7 @@
 
 #include "pipeline.h"
 #include "prt/gltf.h"
-#include "prt/occluder_gltf.h"
+#include "prt/instances_gltf.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include "program.h"
 #include "prt/error_measures.h"
 #include "prt/gltf.h"
-#include "prt/sun.h"
+#include "prt/light.h"
 #include "support/glb_file.h"
 #include "support/scene_builder.h"
 #include "support/temporary_folder.h"

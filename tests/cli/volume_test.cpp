@@ -2,7 +2,7 @@
 
 #include "pipeline.h"
 #include "prt/gltf.h"
-#include "prt/volume_gltf.h"
+#include "prt/instances_gltf.h"
 #include "prt/volume_relighter.h"
 #include "support/glb_file.h"
 #include "support/random_volume.h"

@@ -4,9 +4,8 @@
 #include "prt/cluster_lighting.h"
 #include "prt/light.h"
 #include "prt/lightmap_lookup.h"
-#include "prt/lightmap_relighter.h"
-#include "prt/lobe_gltf.h"
-#include "prt/occluder_gltf.h"
+#include "prt/lightmap.h"
+#include "prt/instances_gltf.h"
 #include "prt/rigid_parts.h"
 #include "target.h"
 

@@ -3,7 +3,7 @@
 #include "prt/cluster_lighting.h"
 #include "prt/sh.h"
 #include "prt/sh_rotation.h"
-#include "prt/sky.h"
+#include "prt/light.h"
 
 #include <cmath>
 #include <cstdio>

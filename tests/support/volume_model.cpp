@@ -4,7 +4,7 @@
 
 #include "prt/encode_glb.h"
 #include "prt/gltf.h"
-#include "prt/volume_gltf.h"
+#include "prt/instances_gltf.h"
 
 #include <string>
 

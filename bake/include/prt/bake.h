@@ -7,7 +7,6 @@
 #include "prt/scene.h"
 #include "prt/support/error.h"
 #include "prt/support/progress.h"
-#include "prt/tracer.h"
 
 #include <cstddef>
 #include <cstdint>

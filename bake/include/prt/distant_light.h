@@ -3,7 +3,7 @@
 // Distant light that rays evaluate by direction, in exact form. SH lighting approximates distant light.
 
 #include "prt/environment.h"
-#include "prt/sun.h"
+#include "prt/light.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>

@@ -4,7 +4,7 @@
 
 #include "prt/bake.h"
 #include "prt/lightmap.h"
-#include "prt/occlusion_maps.h"
+#include "prt/ambient_occlusion.h"
 
 #include <cstddef>
 #include <string>

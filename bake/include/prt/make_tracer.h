@@ -4,7 +4,7 @@
 
 #include "prt/trace_scene.h"
 #include "prt/tracer.h"
-#include "prt/tracer_choice.h"
+#include "prt/bake_options.h"
 
 #include <memory>
 

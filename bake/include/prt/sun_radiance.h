@@ -3,7 +3,7 @@
 // Direct light of suns with sharp shadows at vertices, like the light that a renderer with shadow maps adds
 // to the light of transfer.
 
-#include "prt/sun.h"
+#include "prt/light.h"
 #include "prt/support/progress.h"
 #include "prt/trace_scene.h"
 

@@ -5,7 +5,7 @@
 
 #include "prt/dering.h"
 #include "prt/distant_light.h"
-#include "prt/sun.h"
+#include "prt/light.h"
 #include "prt/surface_points.h"
 #include "prt/transfer_layout.h"
 

@@ -6,6 +6,7 @@
 #include "prt/ray_scene.h"
 #include "prt/receivers.h"
 #include "prt/support/progress.h"
+#include "prt/bake_options.h"
 
 #include <cstdint>
 #include <functional>
@@ -43,14 +44,6 @@ struct TraceOptions {
 /// `indices`. It is called once per receiver, from several threads at the same time; `hits` is valid only
 /// during the call. If a GPU fails and the CPU repeats its work, the callback may get a receiver twice.
 using HitSink = std::function<void(std::size_t i, std::span<const Hit> hits)>;
-
-/// Wall-clock time of the stages of tracing, in seconds. If a tracer cannot measure stages separately, their
-/// time is included in `trace`.
-struct TraceSeconds {
-    double trace = 0;      ///< tracing of rays, or drawing of depth maps
-    double accumulate = 0; ///< summation of spherical harmonics, and calls of the sink
-    double transfer = 0;   ///< copies of data to and from a GPU
-};
 
 /// Interface of the methods that compute direct transfer, on a CPU or a GPU. All implementations that trace
 /// rays use the same rays, so that their results differ only by rays that graze an edge. A tracer keeps a

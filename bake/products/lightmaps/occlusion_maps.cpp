@@ -1,6 +1,6 @@
 // Measures the texels of atlases, fills the texels between charts, and closes seams.
 
-#include "prt/occlusion_maps.h"
+#include "prt/ambient_occlusion.h"
 
 #include "plan/available_memory.h"
 #include "products/lightmaps/gutters.h"

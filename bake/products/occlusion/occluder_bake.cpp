@@ -1,6 +1,6 @@
 // Samples an object alone from points in its box, and fits a volume to the occlusion there.
 
-#include "prt/occluder_bake.h"
+#include "prt/ambient_occlusion.h"
 
 #include "products/occlusion/blocked_by_rays.h"
 #include "products/occlusion/occluder_fit.h"

@@ -4,7 +4,7 @@
 // renderer has.
 
 #include "prt/lightmap.h"
-#include "prt/mesh_edges.h"
+#include "prt/adjacency.h"
 #include "prt/scene.h"
 
 #include <glm/vec3.hpp>

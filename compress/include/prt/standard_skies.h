@@ -10,7 +10,7 @@
 
 namespace prt {
 
-/// A clear sky (prt/sky.h) over horizontal ground of albedo 0.2, and its sun.
+/// A clear sky (prt/light.h) over horizontal ground of albedo 0.2, and its sun.
 struct DaylightOptions {
     double sun_elevation = 0; ///< radians above the horizon, 0..pi/2; at 0 there is no sunlight
     double turbidity = 2.5;   ///< haziness of the air, 1.7..10: 2 is clear, 10 is hazy

@@ -7,7 +7,7 @@
 #include "prt/receiver_colors.h"
 #include "prt/repeated_bake.h"
 #include "prt/sh.h"
-#include "prt/subsurface.h"
+#include "prt/bake_options.h"
 #include "prt/support/error.h"
 #include "prt/support/parallel.h"
 

@@ -10,7 +10,7 @@
 #include "prt/animation.h"
 #include "prt/error_budget.h"
 #include "prt/lobes.h"
-#include "prt/occluder_gltf.h"
+#include "prt/instances_gltf.h"
 #include "prt/transfer_volume.h"
 
 #include <memory>

@@ -2,10 +2,9 @@
 
 #include "core/light_rig.h"
 
-#include "prt/color.h"
+#include "prt/light.h"
 #include "prt/image_file.h"
 #include "prt/sh_basis.h"
-#include "prt/sky.h"
 #include "prt/sun_shadows.h"
 #include "prt/suns.h"
 #include "prt/tone_map.h"

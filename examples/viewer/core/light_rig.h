@@ -5,7 +5,6 @@
 #include "prt/distant_light.h"
 #include "prt/environment.h"
 #include "prt/light.h"
-#include "prt/sun.h"
 #include "prt/surface_radiance.h"
 #include "prt/transfer_layout.h"
 

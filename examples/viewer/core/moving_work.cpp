@@ -5,12 +5,11 @@
 #include "core/transfer_work.h"
 
 #include "prt/compress_volume.h"
-#include "prt/lobe_gltf.h"
-#include "prt/occluder_bake.h"
+#include "prt/instances_gltf.h"
+#include "prt/ambient_occlusion.h"
 #include "prt/rigid_parts.h"
 #include "prt/support/error.h"
 #include "prt/volume_bake.h"
-#include "prt/volume_gltf.h"
 
 #include <fmt/core.h>
 

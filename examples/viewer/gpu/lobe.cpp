@@ -2,7 +2,7 @@
 
 #include "gpu/lobe.h"
 
-#include "prt/sh_vector.h"
+#include "prt/sh.h"
 
 #include <glm/geometric.hpp>
 

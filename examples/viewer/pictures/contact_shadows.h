@@ -5,7 +5,7 @@
 #include "pictures/figure_pose.h"
 
 #include "prt/gl_occluders.h"
-#include "prt/occluder_gltf.h"
+#include "prt/instances_gltf.h"
 
 #include <memory>
 #include <optional>

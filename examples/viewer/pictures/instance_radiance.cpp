@@ -2,7 +2,7 @@
 
 #include "pictures/instance_radiance.h"
 
-#include "prt/instance_shader.h"
+#include "prt/shader_source.h"
 #include "prt/support/stopwatch.h"
 #include "shared_layout.h"
 #include "shared_viewer.h"

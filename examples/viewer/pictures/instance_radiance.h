@@ -5,7 +5,7 @@
 
 #include "prt/gl_scene.h"
 #include "prt/gl_transfer.h"
-#include "prt/instance_relighter.h"
+#include "prt/instances.h"
 
 #include <glm/vec4.hpp>
 

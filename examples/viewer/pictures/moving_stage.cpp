@@ -2,9 +2,8 @@
 
 #include "pictures/moving_stage.h"
 
-#include "prt/lobe_shader.h"
+#include "prt/shader_source.h"
 #include "prt/texture.h"
-#include "prt/volume_shader.h"
 #include "shared_layout.h"
 #include "shared_viewer.h"
 

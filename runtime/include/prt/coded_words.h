@@ -5,7 +5,6 @@
 // differences (docs/format.md). Experimental.
 
 #include "prt/clustered_bases.h"
-#include "prt/coded_rows.h"
 
 #include <array>
 #include <cstddef>

@@ -6,11 +6,47 @@
 
 #include "prt/support/glm_layout.h"
 
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include <array>
+#include <span>
 #include <vector>
 
 namespace prt {
+
+/// Luminance weights of linear Rec. 709 red, green and blue; their sum is 1.
+inline constexpr glm::dvec3 kLuminance(0.2126, 0.7152, 0.0722);
+
+/// Returns the luminance of a linear Rec. 709 color, in the unit of the color: the luminance of (v, v, v) is
+/// v.
+template <class Real>
+Real luminance(const glm::vec<3, Real>& rgb) {
+    return glm::dot(rgb, glm::vec<3, Real>(kLuminance));
+}
+
+/// Returns whether red, green and blue are exactly equal.
+inline bool is_grey(const glm::vec3& rgb) {
+    return rgb.r == rgb.g && rgb.g == rgb.b;
+}
+
+/// A sun: a distant disc of uniform radiance, or a directional light if `half_angle` is 0.
+struct Sun {
+    glm::vec3 towards = {0, 1, 0}; ///< unit direction from the receiver to the center of the disc
+    /// Irradiance on a receiver that faces the center of the disc: linear Rec. 709, in the unit of the sky's
+    /// radiance times sr. An unoccluded receiver of albedo 1 then has the exit radiance irradiance / pi.
+    glm::vec3 irradiance{0};
+    double half_angle = 0; ///< angle from the center of the disc to its rim, radians, 0..pi/2
+};
+
+/// Returns `sun` as SH radiance coefficients of `order` bands (docs/math.md, eq. 14), for example for
+/// `Lighting::suns`. Throws `Error` for an order outside 1..kMaxOrder, a half angle outside 0..pi/2, a
+/// direction of length 0, values that are not finite, and coefficients that overflow a float.
+Light as_light(const Sun& sun, int order);
+/// Returns the sum of all `suns` as SH radiance coefficients of `order` bands, for example for
+/// `Lighting::suns`; all coefficients are 0 if `suns` is empty. Throws `Error` for an order outside
+/// 1..kMaxOrder, for a sun that the other overload rejects, and for a sum that overflows a float.
+Light as_light(std::span<const Sun> suns, int order);
 
 /// Distant lighting as SH coefficients of its radiance. Unless stated otherwise, functions that create or
 /// change a light return finite coefficients, or throw `Error`: for a color, direction or angle that is not
@@ -45,7 +81,7 @@ Light cone_light(int order, const glm::vec3& axis, double half_angle, const glm:
 
 /// Returns light whose radiance is linear in the cosine of the angle to the unit direction `up`: `top` from
 /// `up`, `bottom` from -`up`, and the mean of `top` and `bottom` from the horizon, in `order` bands.
-/// D3DXSHEvalHemisphereLight returns 3/2 of this light: `d3dx_hemisphere_light` of prt/sh_conventions.h.
+/// D3DXSHEvalHemisphereLight returns 3/2 of this light: `d3dx_hemisphere_light` of prt/light.h.
 Light hemisphere_light(int order, const glm::vec3& up, const glm::vec3& top, const glm::vec3& bottom);
 
 /// Returns the light that a receiver at the origin sees of a sphere of radiance `radiance`, in `order` bands:
@@ -94,5 +130,87 @@ Light rotated_about_y(const Light& light, double angle);
 /// For `Window::automatic`, `light` must have at least one band; throws the errors of `deringed`. For
 /// `Window::none`, returns `light` without a check.
 Light windowed(const Light& light, Window window);
+
+/// The light of the sky without the disc of the sun. +Y is up. Radiance is linear Rec. 709 and scaled so that
+/// its luminance is in kcd/m², the unit of the model; callers multiply it by their exposure. Immutable and
+/// thread-safe.
+class PreethamSky {
+public:
+    /// `turbidity` measures the haze: 2 is a clear sky, 10 is hazy. The model was fitted for 2 to 10. `sun`
+    /// is the unit direction to the sun. Throws `Error` unless turbidity is in 1.7..10, sun.y >= 0 and the
+    /// length of `sun` is 1 within 0.001.
+    PreethamSky(double turbidity, const glm::dvec3& sun);
+
+    /// Returns the radiance from unit direction `direction`: linear Rec. 709, luminance in kcd/m². Channels
+    /// that would be negative are 0. Returns black for direction.y <= 0. For 0 < direction.y < 0.01 the model
+    /// uses 0.01 for the height above the horizon.
+    glm::dvec3 radiance(const glm::dvec3& direction) const;
+    /// Luminance of the sky in direction +Y, in kcd/m².
+    double zenith_luminance() const { return zenith_luminance_; }
+
+private:
+    /// The five parameters A to E of the sky distribution of Perez et al. (1993), from the formulas of
+    /// Preetham et al., appendix A.2.
+    using Perez = std::array<double, 5>;
+
+    glm::dvec3 sun_;          ///< unit direction to the sun
+    Perez luminance_, x_, y_; ///< distributions of the luminance and of the CIE chromaticities x and y
+    double zenith_luminance_; ///< kcd/m²
+    /// Luminance (kcd/m²) and CIE chromaticities x and y of the zenith, each divided by the value of its
+    /// distribution at the zenith.
+    double luminance_over_perez_, x_over_perez_, y_over_perez_;
+};
+
+/// Returns the radiance of `sky` as SH coefficients of `order` bands, in the unit of `PreethamSky::radiance`.
+/// The result contains neither the sun nor light from the ground; callers can add both with `sum` of
+/// prt/light.h, for example a `cone_light`. Throws `Error` for an order outside 1..kMaxOrder.
+Light sky_light(int order, const PreethamSky& sky);
+
+/// Multiplies each of the `coefficients` [order²] of degree m by (-1)^m, in place. This converts them from a
+/// basis with the Condon-Shortley phase, which prtkit uses, to a basis without it, or back.
+void flip_condon_shortley(int order, std::span<float> coefficients);
+/// Multiplies each of the `coefficients` [order²] of degree m by (-1)^m, in place. This converts them from a
+/// basis with the Condon-Shortley phase, which prtkit uses, to a basis without it, or back.
+void flip_condon_shortley(int order, std::span<double> coefficients);
+/// Multiplies each of the RGB `coefficients` [order²] of degree m by (-1)^m, in place. This converts them
+/// from a basis with the Condon-Shortley phase, which prtkit uses, to a basis without it, or back.
+void flip_condon_shortley(int order, std::span<glm::vec3> coefficients);
+
+/// Returns the first three bands of `light` as the nine coefficients of three.js's `SphericalHarmonics3`, for
+/// its `LightProbe`. They represent radiance, in a basis without the Condon-Shortley phase, at index l(l+1) +
+/// m. Throws `Error` if `light` has fewer than three bands, or if one of the nine coefficients is not finite.
+std::array<glm::vec3, 9> to_three_js(const Light& light);
+/// Returns light of order 3 from the nine coefficients of three.js's `SphericalHarmonics3`, which represent
+/// radiance; the inverse of `to_three_js`. Throws `Error` if a coefficient is not finite.
+Light from_three_js(const std::array<glm::vec3, 9>& coefficients);
+
+/// Returns the first three bands of `light` as `irradianceCoefficients` of glTF's `EXT_lights_image_based`.
+/// They represent irradiance, which is radiance convolved with the clamped cosine (factors pi, 2 pi / 3 and
+/// pi / 4 for bands 0, 1 and 2), in a basis without the Condon-Shortley phase. Their sequence L00, L1-1, L10,
+/// L11, L2-2, .. L22 equals that of prtkit. Throws `Error` if `light` has fewer than three bands, or if a
+/// result is not finite.
+std::array<glm::vec3, 9> to_gltf_irradiance(const Light& light);
+/// Returns light of order 3 from the nine `irradianceCoefficients` of glTF's `EXT_lights_image_based`; the
+/// inverse of `to_gltf_irradiance`. Throws `Error` if a coefficient is not finite, or if a result overflows a
+/// float.
+Light from_gltf_irradiance(const std::array<glm::vec3, 9>& coefficients);
+
+/// Returns the light of D3DX's `D3DXSHEvalDirectionalLight`, with the scale of D3DX (docs/conventions.md): an
+/// unoccluded receiver of albedo 1 that faces the light has the exit radiance `intensity`, computed with
+/// `order` bands. `towards` is the unit direction from the receiver to the light. Throws `Error` for an
+/// invalid order, a direction of length 0, arguments that are not finite, and results that overflow a float.
+Light d3dx_directional_light(int order, const glm::vec3& towards, const glm::vec3& intensity);
+/// Returns the light of D3DX's `D3DXSHEvalConeLight`: radiance intensity / sin²(min(half_angle, pi/2)) inside
+/// the cone, 0 outside. `axis` is the unit direction from the receiver to the center of the light, and
+/// `half_angle` is in radians. With infinitely many bands, a receiver of albedo 1 that faces the light would
+/// have the exit radiance `intensity`. Throws `Error` unless 0 < half_angle <= pi (pi as a float is valid),
+/// and for an invalid order, an axis of length 0, arguments that are not finite, and results that overflow a
+/// float.
+Light d3dx_cone_light(int order, const glm::vec3& axis, double half_angle, const glm::vec3& intensity);
+/// Returns the light of D3DX's `D3DXSHEvalHemisphereLight`, which is 3/2 times `hemisphere_light` of
+/// prt/light.h: its radiance changes linearly in the cosine to the unit direction `up`, from 3/2 `bottom`
+/// below to 3/2 `top` above. Throws `Error` for an invalid order, a direction of length 0, arguments that are
+/// not finite, and results that overflow a float.
+Light d3dx_hemisphere_light(int order, const glm::vec3& up, const glm::vec3& top, const glm::vec3& bottom);
 
 } // namespace prt

@@ -2,7 +2,7 @@
 
 // Transfer for skinned meshes: one to three zonal lobes per vertex, four bytes each, whose axes rotate like
 // the vertex normal (docs/math.md, section 21; Sloan, Luna and Snyder, "Local, deformable precomputed
-// radiance transfer", 2005). prt/lobe_fit.h fits lobes, prt/lobe_gltf.h writes them to files; this header and
+// radiance transfer", 2005). prt/lobe_fit.h fits lobes, prt/instances_gltf.h writes them to files; this header and
 // shaders/prt_lobes.glsl evaluate them. Experimental.
 //
 //     const glm::mat3 rotation = axis_rotation(skin_matrix); // blended skin matrix of the vertex

@@ -2,7 +2,7 @@
 
 // Occlusion of nearby receivers by a rigid moving object ("occluder"): a box of 8 x 8 x 8 points, each with
 // the fraction of all directions that the object blocks and with the mean of the blocked directions
-// (docs/math.md, section 20). prt/occluder_bake.h bakes the volume once; this header and
+// (docs/math.md, section 20). prt/ambient_occlusion.h bakes the volume once; this header and
 // shaders/prt_occluders.glsl evaluate it. Experimental.
 
 #include <glm/mat4x4.hpp>

@@ -103,7 +103,7 @@ void check_layout(const TransferLayout& layout);
 struct Lighting {
     Light sky; ///< radiance of the sky; includes all suns if `suns` has no value
     /// Suns that the renderer shades itself, with sharp shadows, and adds to the direct light of the sky: the
-    /// sum of their `as_light` (prt/sun.h). No value: all light is in `sky`.
+    /// sum of their `as_light` (prt/light.h). No value: all light is in `sky`.
     std::optional<Light> suns = {};
     /// [layout.lamps()] strength of each lamp as linear RGB factors, in the sequence of
     /// `TransferLayout::lamp_terms`; 1 is the strength in the scene, 0 is off. Empty: 1 for every lamp.

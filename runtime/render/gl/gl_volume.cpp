@@ -2,7 +2,7 @@
 
 #include "prt/gl_volume.h"
 
-#include "prt/volume_shader.h"
+#include "prt/shader_source.h"
 #include "prt/volume_weights.h"
 #include "shared_layout.h"
 

@@ -1,6 +1,6 @@
 // Reads and writes transfer of texels in glTF files: PRTKIT_lightmap of docs/format.md.
 
-#include "prt/lightmap_gltf.h"
+#include "prt/instances_gltf.h"
 #include "prt/support/counted.h"
 
 #include "gltf/accessor.h"

@@ -1,6 +1,6 @@
 // Reads and writes zonal lobes in glTF files: PRTKIT_lobes of docs/format.md.
 
-#include "prt/lobe_gltf.h"
+#include "prt/instances_gltf.h"
 
 #include "gltf/accessor.h"
 #include "gltf/allowance.h"

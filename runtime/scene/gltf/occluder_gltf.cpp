@@ -1,6 +1,6 @@
 // Reads and writes occlusion volumes of nodes in glTF files: PRTKIT_occlusion_volume of docs/format.md.
 
-#include "prt/occluder_gltf.h"
+#include "prt/instances_gltf.h"
 
 #include "gltf/accessor.h"
 #include "gltf/transfer_json.h"

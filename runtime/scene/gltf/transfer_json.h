@@ -3,7 +3,7 @@
 // Common JSON of the transfer extensions of prtkit.
 
 #include "gltf/contents.h"
-#include "prt/coded_rows.h"
+#include "prt/clustered_bases.h"
 #include "prt/gltf.h"
 #include "prt/support/error.h"
 

@@ -1,6 +1,6 @@
 // Reads and writes transfer of probes in glTF files: PRTKIT_transfer_volume of docs/format.md.
 
-#include "prt/volume_gltf.h"
+#include "prt/instances_gltf.h"
 #include "prt/support/counted.h"
 
 #include "gltf/accessor.h"

@@ -1,6 +1,6 @@
 // Occlusion volumes of objects, baked, against closed forms and rays.
 
-#include "prt/occluder_bake.h"
+#include "prt/ambient_occlusion.h"
 
 #include "prt/support/error.h"
 #include "support/scene_builder.h"

@@ -3,7 +3,7 @@
 #include "products/lightmaps/gutters.h"
 #include "products/lightmaps/seams.h"
 #include "products/lightmaps/texel_samples.h"
-#include "prt/occlusion_maps.h"
+#include "prt/ambient_occlusion.h"
 #include "prt/support/error.h"
 #include "prt/unwrap.h"
 #include "support/scene_builder.h"

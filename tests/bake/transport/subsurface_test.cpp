@@ -2,7 +2,7 @@
 
 #include "prt/bake.h"
 #include "prt/light.h"
-#include "prt/subsurface.h"
+#include "prt/bake_options.h"
 #include "prt/support/error.h"
 #include "support/scene_builder.h"
 #include "transport/diffusion.h"

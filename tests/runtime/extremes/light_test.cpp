@@ -2,8 +2,6 @@
 
 #include "prt/dering.h"
 #include "prt/light.h"
-#include "prt/sh_conventions.h"
-#include "prt/sky.h"
 #include "prt/suns.h"
 #include "support/extremes.h"
 

@@ -2,7 +2,7 @@
 
 #include "prt/suns.h"
 
-#include "prt/color.h"
+#include "prt/light.h"
 #include "prt/sh.h"
 #include "support/painted_sky.h"
 

@@ -3,8 +3,6 @@
 #include "prt/light.h"
 
 #include "prt/sh.h"
-#include "prt/sh_conventions.h"
-#include "prt/sky.h"
 #include "prt/support/error.h"
 #include "support/light_difference.h"
 #include "support/quadrature.h"

@@ -1,7 +1,7 @@
 // Lobes: shaders of every language against C++.
 
 #include "prt/gl_context.h"
-#include "prt/lobe_shader.h"
+#include "prt/shader_source.h"
 #include "prt/support/error.h"
 #include "runtime/shader/run_shader.h"
 #include "shared_layout.h"

@@ -1,7 +1,7 @@
 // Lobes in files.
 
 #include "prt/encode_glb.h"
-#include "prt/lobe_gltf.h"
+#include "prt/instances_gltf.h"
 #include "prt/support/error.h"
 #include "support/glb_file.h"
 

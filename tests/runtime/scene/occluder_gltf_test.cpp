@@ -1,7 +1,7 @@
 // Rigid parts of scenes, and occlusion volumes of nodes in files.
 
 #include "prt/encode_glb.h"
-#include "prt/occluder_gltf.h"
+#include "prt/instances_gltf.h"
 #include "prt/rigid_parts.h"
 #include "prt/support/error.h"
 #include "support/glb_file.h"

@@ -1,6 +1,6 @@
 // Tests predictors in files: the reader returns the data of the writer.
 
-#include "prt/coded_rows.h"
+#include "prt/clustered_bases.h"
 #include "prt/gltf.h"
 #include "prt/predictors.h"
 #include "prt/reorder.h"

@@ -1,9 +1,8 @@
 // Tests arithmetic on vectors of spherical harmonics.
 
-#include "prt/sh_vector.h"
-
 #include "prt/sh.h"
-#include "prt/sh_conventions.h"
+
+#include "prt/light.h"
 #include "support/quadrature.h"
 
 #include <glm/geometric.hpp>

@@ -2,8 +2,8 @@
 
 #include "prt/compress.h"
 #include "prt/gl_renderer.h"
-#include "prt/instance_relighter.h"
-#include "prt/instance_shader.h"
+#include "prt/instances.h"
+#include "prt/shader_source.h"
 #include "prt/support/error.h"
 
 #include "run_shader.h"

@@ -5,7 +5,6 @@
 #include "prt/compress.h"
 #include "prt/gl_context.h"
 #include "prt/gl_objects.h"
-#include "prt/shader_bindings.h"
 #include "prt/shader_source.h"
 #include "run_shader.h"
 #include "shared_layout.h"

@@ -1,10 +1,9 @@
 // Tests that per-frame functions do not allocate. A separate program, because it counts every allocation.
 
 #include "prt/cluster_lighting.h"
-#include "prt/lightmap_relighter.h"
+#include "prt/lightmap.h"
 #include "prt/sh.h"
 #include "prt/sh_rotation.h"
-#include "prt/sh_vector.h"
 #include "prt/volume_relighter.h"
 #include "support/random_lightmap.h"
 #include "support/random_volume.h"

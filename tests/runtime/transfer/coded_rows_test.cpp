@@ -1,7 +1,6 @@
 // Tests entropy-coded rows of bases.
 
 #include "prt/clustered_bases.h"
-#include "prt/coded_rows.h"
 
 #include "prt/support/bits.h"
 #include "prt/support/error.h"

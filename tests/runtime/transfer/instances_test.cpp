@@ -3,7 +3,6 @@
 #include "prt/instances.h"
 
 #include "prt/error_measures.h"
-#include "prt/instance_relighter.h"
 #include "prt/sh.h"
 #include "prt/support/error.h"
 #include "support/quadrature.h"

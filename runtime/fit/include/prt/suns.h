@@ -4,7 +4,7 @@
 // model with transfer under the sky. Stable.
 
 #include "prt/environment.h"
-#include "prt/sun.h"
+#include "prt/light.h"
 
 #include <optional>
 #include <vector>

@@ -17,6 +17,13 @@
 
 namespace prt {
 
+/// Returns the sRGB value of a linear value. Both are 0..1 (1 is white, not 255); values outside are not
+/// clamped.
+float srgb_encode(float linear);
+/// Returns the linear value of an sRGB value. Both are 0..1 (1 is white, not 255); values outside are not
+/// clamped.
+float srgb_decode(float encoded);
+
 /// Settings for reading an environment map.
 struct EnvironmentOptions {
     /// Layout of the image; replaces the layout that the file specifies. Without a value: `cube_faces` for

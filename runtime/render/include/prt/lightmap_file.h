@@ -3,7 +3,7 @@
 // Compressed lightmaps in glTF files, and the words of their texels that a game binds as textures.
 // Experimental.
 
-#include "prt/lightmap_gltf.h"
+#include "prt/instances_gltf.h"
 
 #include <glm/vec3.hpp>
 

@@ -8,7 +8,7 @@
 #include "prt/environment.h"
 #include "prt/lightmap.h"
 #include "prt/scene.h"
-#include "prt/sun.h"
+#include "prt/light.h"
 #include "prt/texture.h"
 #include "prt/transfer_layout.h"
 

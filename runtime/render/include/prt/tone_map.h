@@ -5,7 +5,7 @@
 #include "prt/environment.h"
 #include "prt/light.h"
 #include "prt/sh_basis.h"
-#include "prt/srgb.h"
+#include "prt/image_file.h"
 #include "prt/support/glm_layout.h"
 
 #include <glm/gtc/type_precision.hpp>

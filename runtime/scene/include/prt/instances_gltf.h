@@ -4,11 +4,17 @@
 // (PRTKIT_instances of docs/format.md). Experimental.
 
 #include "prt/gltf.h"
-#include "prt/instance_relighter.h"
 #include "prt/instances.h"
+#include "prt/lightmap.h"
+#include "prt/lobes.h"
+#include "prt/occlusion_volume.h"
+#include "prt/transfer_volume.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace prt {
@@ -143,5 +149,95 @@ std::vector<float> instanced_areas(const GltfDocument& document, const Scene& st
 /// limit of docs/format.md.
 Transfer expanded(const GltfDocument& document, const Scene& scene, const Scene& stored,
                   const Transfer& transfer, int threads = 0);
+
+/// Maximum width and maximum height of a lightmap in a file, in texels.
+inline constexpr int kMaxLightmapTexels = 16384;
+
+/// Writes raw transfer of texels into `document`, from which `scene` was extracted. Removes all existing
+/// transfer of surfaces: of vertices, of texels, and lobes. Changes the meshes as `write_transfer` does; call
+/// only one function that changes the meshes per document. Throws the errors of `write_transfer`.
+void write_lightmap(GltfDocument& document, const Scene& scene, const BakedLightmap& lightmap);
+
+/// Returns the raw transfer of texels in the file; empty if the file has no lightmap or a compressed one.
+/// `scene` was extracted from `document`. Throws `Error` if the lightmap is damaged, too large or of another
+/// version, or if the file also has transfer of vertices.
+std::optional<BakedLightmap> read_lightmap(const GltfDocument& document, const Scene& scene);
+
+/// A compressed lightmap whose packed words (cluster and weights of a texel) are encoded as images.
+struct EncodedLightmap {
+    /// The lightmap without the clusters and weights of receivers, which `images` contain.
+    CompressedLightmap lightmap;
+    /// [maps][words per texel] PNG files, one for each word of the texels of a map.
+    std::vector<std::vector<std::byte>> images;
+};
+
+/// Writes a compressed lightmap with encoded images into `document`, from which `scene` was extracted.
+/// `lightmap` must have at least one map and packed weights. Removes all existing transfer of surfaces and
+/// changes the meshes, as `write_lightmap` does. Throws the errors of `write_transfer`. prt/lightmap_file.h
+/// has functions that encode the images.
+void write_encoded_lightmap(GltfDocument& document, const Scene& scene, const EncodedLightmap& lightmap);
+/// Returns the compressed lightmap in the file, with encoded images; empty if the file has no lightmap or a
+/// raw one. `scene` was extracted from `document`. Throws the errors of `read_lightmap`; does not decode the
+/// images. prt/lightmap_file.h has functions that decode them.
+std::optional<EncodedLightmap> read_encoded_lightmap(const GltfDocument& document, const Scene& scene);
+
+/// Writes a raw volume, whose grid is relative to Scene::origin, into `document`, from which `scene` was
+/// extracted. Replaces an existing volume, raw or compressed. Does not change transfer of surfaces.
+void write_volume(GltfDocument& document, const Scene& scene, const BakedVolume& volume);
+/// Writes a compressed volume, whose grid is relative to Scene::origin, into `document`, from which `scene`
+/// was extracted. Replaces an existing volume, raw or compressed. Does not change transfer of surfaces.
+/// Throws `Error` unless the weights are packed.
+void write_volume(GltfDocument& document, const Scene& scene, const CompressedVolume& volume);
+
+/// Returns the raw volume in the file; empty if the file has no volume or a compressed one. `scene` was
+/// extracted from `document`. Throws `Error` if the volume is damaged, too large or of another version.
+std::optional<BakedVolume> read_volume(const GltfDocument& document, const Scene& scene);
+/// Returns the compressed volume in the file; empty if the file has no volume or a raw one. `scene` was
+/// extracted from `document`. Throws `Error` if the volume is damaged, too large or of another version.
+std::optional<CompressedVolume> read_compressed_volume(const GltfDocument& document, const Scene& scene);
+
+/// Removes the volume, raw or compressed, from `document`, and frees its memory. Does nothing if there is no
+/// volume.
+void discard_volume(GltfDocument& document);
+
+/// Settings of the lobe fit; written to the file and shown by `prt info`. A number that the file does not
+/// contain is 0.
+struct LobeRecord {
+    int poses = 0;          ///< number of poses in the fit
+    int rays = 0;           ///< number of rays per vertex in each pose
+    int bounces = 0;        ///< number of bounces; 0: direct light only
+    std::uint64_t seed = 0; ///< seed of the random numbers of the rays
+};
+
+/// Lobes as stored in a file, with the record of their fit.
+struct StoredLobes {
+    LobeModel model; ///< vertices in the order of the receivers of the scene
+    LobeRecord record;
+};
+
+/// Writes lobes into `document`, from which `scene` was extracted. Removes all other transfer of surfaces
+/// (vertices and lightmaps), because other transfer is valid for a single pose only. Changes the meshes as
+/// `write_transfer` does; call only one function that changes the meshes per document. Throws the errors of
+/// `check_lobes` and `write_transfer`.
+void write_lobes(GltfDocument& document, const Scene& scene, const StoredLobes& lobes);
+
+/// Returns the lobes in the file; empty if the file has no lobes. `scene` was extracted from `document`.
+/// Throws `Error` if the lobes are damaged, too large or of another version.
+std::optional<StoredLobes> read_lobes(const GltfDocument& document, const Scene& scene);
+
+/// An occlusion volume, and the node with which the volume moves.
+struct NodeOccluder {
+    int node = 0;           ///< index in the nodes of the document
+    OcclusionVolume volume; ///< in the frame of the node
+};
+
+/// Removes all occlusion volumes from `document`, then writes `occluders`, which contain at most one for each
+/// node. Throws `Error` if a node does not exist; `document` is then partly changed. Does not check the
+/// volumes (`check_occlusion_volume`).
+void write_occluders(GltfDocument& document, std::span<const NodeOccluder> occluders);
+
+/// Returns the occlusion volumes in the file, in ascending order of their nodes; empty if the file has no
+/// occlusion volumes. Throws `Error` if an occlusion volume is damaged or of another version.
+std::vector<NodeOccluder> read_occluders(const GltfDocument& document);
 
 } // namespace prt

@@ -3,7 +3,6 @@
 // Light files, as `prt project` writes them (docs/format.md). Stable.
 
 #include "prt/light.h"
-#include "prt/sun.h"
 
 #include <filesystem>
 #include <vector>

@@ -15,7 +15,7 @@
 
 namespace prt {
 
-/// A volume on the GPU as three textures (prt/volume_textures.h), for shaders that include
+/// A volume on the GPU as three textures (prt/volume_relighter.h), for shaders that include
 /// `shaders/prt_volume.glsl`. The compute shader `shaders/prt_volume.comp` computes the light texture.
 class GlVolume {
 public:

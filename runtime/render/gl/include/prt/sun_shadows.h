@@ -3,7 +3,7 @@
 // Shadow maps of suns, for fragment shaders that include `shaders/sun_light.glsl`. Experimental.
 
 #include "prt/gl_scene.h"
-#include "prt/sun.h"
+#include "prt/light.h"
 
 #include <cstdint>
 #include <functional>
