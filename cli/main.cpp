@@ -1,12 +1,12 @@
 // The prt program: parses the command line, runs a command and reports errors.
 
-#include "arguments/help.h"
-#include "arguments/known_names.h"
-#include "commands/commands.h"
-#include "pipeline/shell_word.h"
-#include "program/session.h"
-#include "program/terminal.h"
-#include "prt/support/error.h"
+#include "cli/arguments/help.h"
+#include "cli/arguments/known_names.h"
+#include "cli/commands/commands.h"
+#include "cli/pipeline/shell_word.h"
+#include "cli/program/session.h"
+#include "cli/program/terminal.h"
+#include "prt/core/error.h"
 
 #include <CLI/CLI.hpp>
 

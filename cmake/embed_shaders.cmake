@@ -14,7 +14,7 @@ endfunction()
 # prt::embedded_files().
 function(prtkit_embed_shaders target)
     list(TRANSFORM ARGN PREPEND ${PROJECT_SOURCE_DIR}/shaders/)
-    prtkit_embed_files(${target} FUNCTION embedded_files HEADER embedded_files.h FILES ${ARGN})
+    prtkit_embed_files(${target} FUNCTION embedded_files HEADER runtime/shader/embedded_files.h FILES ${ARGN})
 endfunction()
 
 # prtkit_embed_kernels(<target> <name>...): compiles shaders/<name>.comp to SPIR-V for Vulkan 1.2 and makes it part of a

@@ -42,7 +42,7 @@ function(prtkit_library target name)
     endif()
     target_include_directories(${target}
         PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>
-        PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+        PRIVATE ${PROJECT_SOURCE_DIR})
     set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
     set_property(GLOBAL APPEND PROPERTY PRTKIT_LIBRARIES ${target})
     set_property(GLOBAL APPEND PROPERTY PRTKIT_HEADER_FOLDERS ${CMAKE_CURRENT_SOURCE_DIR}/include/)

@@ -68,18 +68,18 @@
 #define PRT_IMAGE_LIGHTMAP 0
 #define PRT_IMAGE_VOLUME 1
 
-// Weights of the probes of a volume, defined in prt/volume_weights.h.
+// Weights of the probes of a volume, defined in runtime/transfer/volume_weights.h.
 #define PRT_VOLUME_NORMAL_BIAS 0.25
 #define PRT_VOLUME_VISIBILITY_CELLS 4.0
 #define PRT_VOLUME_VISIBILITY_FULL 0.8
 #define PRT_VOLUME_VISIBILITY_NONE 1.03
 #define PRT_VOLUME_HIDDEN_WEIGHT 0.0001
 
-// Occlusion volumes of moving objects, defined in prt/occlusion_volume.h.
+// Occlusion volumes of moving objects, defined in prt/core/occlusion_volume.h.
 #define PRT_OCCLUDER_SIDE 8
 #define PRT_OCCLUDER_FADE 0.6
 #define PRT_OCCLUDER_BORDER 0.4
-// Maximum number of lobe profiles: prt/lobes.h.
+// Maximum number of lobe profiles: prt/core/lobes.h.
 #define PRT_MAX_PROFILES 256
 
 #ifndef PRT_MAX_OCCLUDERS

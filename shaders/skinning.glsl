@@ -1,4 +1,4 @@
-// Vertices that move with weighted matrices (prt/animation.h).
+// Vertices that move with weighted matrices (prt/gltf/animation.h).
 
 #include "shared_layout.h"
 

@@ -1,6 +1,6 @@
 // Builds a bottom level for each mesh, and a top level with their copies.
 
-#include "device/acceleration_structure.h"
+#include "bake/device/acceleration_structure.h"
 
 #include <fmt/core.h>
 

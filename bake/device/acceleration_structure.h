@@ -2,8 +2,8 @@
 
 // A hierarchy of triangles that the device builds and traverses itself (VK_KHR_acceleration_structure).
 
-#include "device/gpu_buffer.h"
-#include "device/gpu_queue.h"
+#include "bake/device/gpu_buffer.h"
+#include "bake/device/gpu_queue.h"
 
 #include <glm/mat4x3.hpp>
 #include <glm/vec3.hpp>

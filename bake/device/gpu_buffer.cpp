@@ -1,6 +1,6 @@
 // Allocates buffers. They are few and large, so each has separate memory.
 
-#include "device/gpu_buffer.h"
+#include "bake/device/gpu_buffer.h"
 
 #include <fmt/core.h>
 

@@ -2,7 +2,7 @@
 
 // Memory that shaders and the CPU share or exchange.
 
-#include "device/vulkan_device.h"
+#include "bake/device/vulkan_device.h"
 
 #include <cstddef>
 #include <span>

@@ -1,6 +1,6 @@
 // Creates compute pipelines and their descriptor sets.
 
-#include "device/gpu_kernel.h"
+#include "bake/device/gpu_kernel.h"
 
 namespace prt {
 

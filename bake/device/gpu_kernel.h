@@ -2,7 +2,7 @@
 
 // A compute shader and its buffers.
 
-#include "device/gpu_buffer.h"
+#include "bake/device/gpu_buffer.h"
 
 #include <cstdint>
 #include <map>

@@ -1,6 +1,6 @@
 // Submits command buffers in rotation and waits for their tickets.
 
-#include "device/gpu_queue.h"
+#include "bake/device/gpu_queue.h"
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 
 // Work that a device executes in order, counted by a timeline semaphore.
 
-#include "device/gpu_buffer.h"
+#include "bake/device/gpu_buffer.h"
 
 #include <cstdint>
 #include <functional>

@@ -2,7 +2,7 @@
 
 // Uploads through a staging buffer.
 
-#include "device/gpu_queue.h"
+#include "bake/device/gpu_queue.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,8 +1,8 @@
 // Lists Vulkan devices, chooses one and opens it.
 
-#include "device/vulkan_device.h"
+#include "bake/device/vulkan_device.h"
 
-#include "prt/gpu_devices.h"
+#include "bake/device/gpu_devices.h"
 
 #include <fmt/core.h>
 

@@ -2,10 +2,10 @@
 
 // Opens a Vulkan 1.2 device with one compute queue.
 
-#include "prt/gpu_devices.h"
-#include "prt/gpu_failure.h"
-#include "prt/support/error.h"
-#include "prt/bake_options.h"
+#include "bake/device/gpu_devices.h"
+#include "bake/device/gpu_failure.h"
+#include "prt/bake/bake_options.h"
+#include "prt/core/error.h"
 
 #include <vulkan/vulkan_raii.hpp>
 

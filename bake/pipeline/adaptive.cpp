@@ -1,11 +1,11 @@
 // Distributes rays to the receivers where they are most effective (docs/math.md, section 9). Two scrambles
 // with few rays predict the error; a sample of the receivers measures the error that was reached.
 
-#include "pipeline/adaptive.h"
+#include "bake/pipeline/adaptive.h"
 
-#include "prt/bake.h"
-#include "prt/trace_receivers.h"
-#include "trace/scrambles.h"
+#include "bake/trace/scrambles.h"
+#include "bake/trace/trace_receivers.h"
+#include "prt/bake/bake.h"
 
 #include <algorithm>
 #include <cmath>

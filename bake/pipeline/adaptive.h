@@ -2,9 +2,9 @@
 
 // Traces direct transfer with a number of rays that adapts to each receiver.
 
-#include "prt/support/progress.h"
-#include "prt/tracer.h"
-#include "scene/mesh_neighbours.h"
+#include "bake/scene/mesh_neighbours.h"
+#include "bake/trace/tracer.h"
+#include "prt/core/progress.h"
 
 namespace prt {
 

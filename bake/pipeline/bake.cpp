@@ -1,16 +1,16 @@
 // Runs a bake: plans, traces direct light, finds sealed receivers, propagates light and records the result.
 
-#include "prt/bake.h"
+#include "prt/bake/bake.h"
 
-#include "pipeline/direct_transfer.h"
-#include "pipeline/error_check.h"
-#include "pipeline/outgoing_transfer.h"
-#include "plan/check_options.h"
-#include "plan/memory.h"
-#include "plan/transfer_terms.h"
-#include "prt/make_tracer.h"
-#include "prt/support/stopwatch.h"
-#include "scene/positions_without_area.h"
+#include "bake/pipeline/direct_transfer.h"
+#include "bake/pipeline/error_check.h"
+#include "bake/pipeline/outgoing_transfer.h"
+#include "bake/plan/check_options.h"
+#include "bake/plan/memory.h"
+#include "bake/plan/transfer_terms.h"
+#include "bake/scene/positions_without_area.h"
+#include "bake/tracers/make_tracer.h"
+#include "runtime/support/stopwatch.h"
 
 #include <algorithm>
 #include <memory>

@@ -1,11 +1,11 @@
 // Computes all bounces between the vertices of a scene except the last one.
 
-#include "pipeline/bounce_sources.h"
+#include "bake/pipeline/bounce_sources.h"
 
-#include "pipeline/direct_transfer.h"
-#include "pipeline/outgoing_transfer.h"
-#include "plan/transfer_terms.h"
-#include "trace/lamp_light.h"
+#include "bake/pipeline/direct_transfer.h"
+#include "bake/pipeline/outgoing_transfer.h"
+#include "bake/plan/transfer_terms.h"
+#include "bake/trace/lamp_light.h"
 
 #include <memory>
 

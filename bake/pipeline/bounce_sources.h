@@ -2,9 +2,9 @@
 
 // Light that leaves the surfaces of a scene before its last bounce. Texels and probes gather it.
 
-#include "pipeline/lamp_rows.h"
-#include "plan/plan.h"
-#include "prt/tracer.h"
+#include "bake/pipeline/lamp_rows.h"
+#include "bake/plan/plan.h"
+#include "bake/trace/tracer.h"
 
 #include <optional>
 

@@ -1,9 +1,9 @@
 // Builds a tree of patches that lamps light, and descends it by an upper bound of the light from each child.
 
-#include "pipeline/bright_patches.h"
+#include "bake/pipeline/bright_patches.h"
 
-#include "prt/light.h"
-#include "surface_fit/surface_samples.h"
+#include "bake/surface_fit/surface_samples.h"
+#include "prt/core/light.h"
 
 #include <glm/geometric.hpp>
 

@@ -2,7 +2,7 @@
 
 // Picks patches of surfaces that are lit by lamps, in proportion to the light that they send to a receiver.
 
-#include "plan/plan.h"
+#include "bake/plan/plan.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>

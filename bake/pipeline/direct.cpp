@@ -1,11 +1,11 @@
 // Traces direct light with the same number of rays everywhere, or with an adaptive number per receiver.
 
-#include "pipeline/direct.h"
+#include "bake/pipeline/direct.h"
 
-#include "pipeline/adaptive.h"
-#include "pipeline/sampling_error.h"
-#include "pipeline/trace_gather.h"
-#include "prt/trace_receivers.h"
+#include "bake/pipeline/adaptive.h"
+#include "bake/pipeline/sampling_error.h"
+#include "bake/pipeline/trace_gather.h"
+#include "bake/trace/trace_receivers.h"
 
 #include <fmt/core.h>
 

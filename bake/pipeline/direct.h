@@ -2,10 +2,10 @@
 
 // Direct light of a scene, and the gather operator from the same rays.
 
-#include "pipeline/lamp_rows.h"
-#include "plan/plan.h"
-#include "prt/tracer.h"
-#include "trace/gather.h"
+#include "bake/pipeline/lamp_rows.h"
+#include "bake/plan/plan.h"
+#include "bake/trace/gather.h"
+#include "bake/trace/tracer.h"
 
 #include <optional>
 #include <span>

@@ -1,12 +1,12 @@
 // Measures light before it bounces, at receivers or over the surface between them, and finds sealed
 // receivers.
 
-#include "pipeline/direct_transfer.h"
+#include "bake/pipeline/direct_transfer.h"
 
-#include "pipeline/fitted_light.h"
-#include "pipeline/lamps_of_plan.h"
-#include "surface_fit/fit_choice.h"
-#include "trace/sealed.h"
+#include "bake/pipeline/fitted_light.h"
+#include "bake/pipeline/lamps_of_plan.h"
+#include "bake/surface_fit/fit_choice.h"
+#include "bake/trace/sealed.h"
 
 #include <algorithm>
 

@@ -2,10 +2,10 @@
 
 // Light that a bake measures before it bounces.
 
-#include "pipeline/direct.h"
-#include "pipeline/fitted_light.h"
-#include "pipeline/record.h"
-#include "scene/shared_positions.h"
+#include "bake/pipeline/direct.h"
+#include "bake/pipeline/fitted_light.h"
+#include "bake/pipeline/record.h"
+#include "bake/scene/shared_positions.h"
 
 #include <optional>
 

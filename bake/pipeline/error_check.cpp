@@ -1,14 +1,14 @@
 // Compares interpolated transfer with light that is traced again at points between vertices.
 
-#include "pipeline/error_check.h"
+#include "bake/pipeline/error_check.h"
 
-#include "pipeline/trace_gather.h"
-#include "prt/trace_receivers.h"
-#include "reference/back_reach.h"
-#include "surface_fit/varied_samples.h"
-#include "trace/embree_tracer.h"
-#include "trace/scrambles.h"
-#include "trace/sealed.h"
+#include "bake/pipeline/trace_gather.h"
+#include "bake/reference/back_reach.h"
+#include "bake/surface_fit/varied_samples.h"
+#include "bake/trace/embree_tracer.h"
+#include "bake/trace/scrambles.h"
+#include "bake/trace/sealed.h"
+#include "bake/trace/trace_receivers.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,10 +2,10 @@
 
 // Measures the error of a bake at points over the surface.
 
-#include "pipeline/direct_transfer.h"
-#include "pipeline/error_sums.h"
-#include "plan/plan.h"
-#include "surface_fit/surface_samples.h"
+#include "bake/pipeline/direct_transfer.h"
+#include "bake/pipeline/error_sums.h"
+#include "bake/plan/plan.h"
+#include "bake/surface_fit/surface_samples.h"
 
 #include <array>
 #include <map>

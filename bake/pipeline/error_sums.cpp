@@ -1,6 +1,6 @@
 // Computes the ratio of two sums over random points, and its standard error from the points' deviations.
 
-#include "pipeline/error_sums.h"
+#include "bake/pipeline/error_sums.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 // Sums of squared errors over random points.
 
-#include "prt/bake.h"
+#include "prt/bake/bake.h"
 
 #include <cstddef>
 #include <vector>

@@ -1,19 +1,19 @@
 // Traces samples of the surface layer by layer, and solves for the values of receivers.
 
-#include "pipeline/fitted_light.h"
+#include "bake/pipeline/fitted_light.h"
 
-#include "pipeline/lamps_of_plan.h"
-#include "pipeline/trace_gather.h"
-#include "prt/gpu_failure.h"
-#include "prt/sh_basis.h"
-#include "prt/trace_receivers.h"
-#include "surface_fit/fit_noise.h"
-#include "surface_fit/separated_receivers.h"
-#include "surface_fit/smoothness_weights.h"
-#include "trace/sample_sequence.h"
-#include "trace/scrambles.h"
-#include "trace/sealed.h"
-#include "trace/vector_sums.h"
+#include "bake/device/gpu_failure.h"
+#include "bake/pipeline/lamps_of_plan.h"
+#include "bake/pipeline/trace_gather.h"
+#include "bake/surface_fit/fit_noise.h"
+#include "bake/surface_fit/separated_receivers.h"
+#include "bake/surface_fit/smoothness_weights.h"
+#include "bake/trace/sample_sequence.h"
+#include "bake/trace/scrambles.h"
+#include "bake/trace/sealed.h"
+#include "bake/trace/trace_receivers.h"
+#include "bake/trace/vector_sums.h"
+#include "prt/core/sh_basis.h"
 
 #include <algorithm>
 #include <bit>

@@ -2,10 +2,10 @@
 
 // Measures direct light with samples over the surface and fits it to receivers.
 
-#include "pipeline/direct.h"
-#include "pipeline/record.h"
-#include "surface_fit/surface_fit.h"
-#include "trace/lamp_light.h"
+#include "bake/pipeline/direct.h"
+#include "bake/pipeline/record.h"
+#include "bake/surface_fit/surface_fit.h"
+#include "bake/trace/lamp_light.h"
 
 namespace prt {
 

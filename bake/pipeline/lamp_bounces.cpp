@@ -1,6 +1,6 @@
 // Replaces the last bounce of lamps and filters it.
 
-#include "pipeline/lamp_bounces.h"
+#include "bake/pipeline/lamp_bounces.h"
 
 namespace prt {
 namespace {

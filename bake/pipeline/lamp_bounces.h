@@ -2,8 +2,8 @@
 
 // Computes the last bounce of lamps at receivers with less noise than the bounces before it.
 
-#include "pipeline/lamp_rows.h"
-#include "surface_fit/noise_filter.h"
+#include "bake/pipeline/lamp_rows.h"
+#include "bake/surface_fit/noise_filter.h"
 
 #include <span>
 #include <vector>

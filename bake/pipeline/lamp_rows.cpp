@@ -1,12 +1,12 @@
 // Combines hemisphere rays with connections to bright patches.
 
-#include "pipeline/lamp_rows.h"
+#include "bake/pipeline/lamp_rows.h"
 
-#include "scene/lamp_geometry.h"
-#include "scene/transmittance.h"
-#include "surface_fit/surface_samples.h"
-#include "trace/sample_sequence.h"
-#include "trace/scrambles.h"
+#include "bake/scene/lamp_geometry.h"
+#include "bake/scene/transmittance.h"
+#include "bake/surface_fit/surface_samples.h"
+#include "bake/trace/sample_sequence.h"
+#include "bake/trace/scrambles.h"
 
 #include <glm/geometric.hpp>
 

@@ -2,9 +2,9 @@
 
 // Gathers the light of lamps, which comes from few and small areas, with connections to these areas.
 
-#include "pipeline/bright_patches.h"
-#include "prt/tracer.h"
-#include "trace/gather.h"
+#include "bake/pipeline/bright_patches.h"
+#include "bake/trace/gather.h"
+#include "bake/trace/tracer.h"
 
 #include <cstdint>
 #include <optional>

@@ -1,8 +1,8 @@
 // Requests the light of a plan's lamps from the tracer.
 
-#include "pipeline/lamps_of_plan.h"
+#include "bake/pipeline/lamps_of_plan.h"
 
-#include "prt/tracer.h"
+#include "bake/trace/tracer.h"
 
 #include <algorithm>
 

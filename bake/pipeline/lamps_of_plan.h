@@ -2,10 +2,10 @@
 
 // Light of the lamps of a planned bake.
 
-#include "plan/plan.h"
-#include "prt/receivers.h"
-#include "prt/support/progress.h"
-#include "trace/lamp_light.h"
+#include "bake/plan/plan.h"
+#include "bake/scene/receivers.h"
+#include "bake/trace/lamp_light.h"
+#include "prt/core/progress.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,9 +1,9 @@
 // Sums bounces, one after another or all at once with a Krylov solver (docs/math.md, section 7).
 
-#include "pipeline/light_transport.h"
+#include "bake/pipeline/light_transport.h"
 
-#include "prt/bake.h"
-#include "transport/krylov.h"
+#include "bake/transport/krylov.h"
+#include "prt/bake/bake.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,13 +2,13 @@
 
 // Propagates light over bounces, with repairs and subsurface scattering between them.
 
-#include "prt/support/progress.h"
-#include "prt/transfer.h"
-#include "scene/refill.h"
-#include "surface_fit/surface_fit.h"
-#include "trace/gather.h"
-#include "trace/gather_product.h"
-#include "transport/diffusion.h"
+#include "bake/scene/refill.h"
+#include "bake/surface_fit/surface_fit.h"
+#include "bake/trace/gather.h"
+#include "bake/trace/gather_product.h"
+#include "bake/transport/diffusion.h"
+#include "prt/core/progress.h"
+#include "prt/core/transfer.h"
 
 #include <functional>
 #include <span>

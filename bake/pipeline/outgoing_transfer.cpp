@@ -1,11 +1,11 @@
 // Adds bounces to measured light, and removes the back sides of surfaces.
 
-#include "pipeline/outgoing_transfer.h"
+#include "bake/pipeline/outgoing_transfer.h"
 
-#include "plan/transfer_terms.h"
-#include "prt/sh_basis.h"
-#include "prt/support/error.h"
-#include "surface_fit/fit_noise.h"
+#include "bake/plan/transfer_terms.h"
+#include "bake/surface_fit/fit_noise.h"
+#include "prt/core/error.h"
+#include "prt/core/sh_basis.h"
 
 #include <fmt/ranges.h>
 

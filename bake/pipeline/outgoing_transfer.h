@@ -2,10 +2,10 @@
 
 // Light that leaves the receivers of a plan after all bounces.
 
-#include "pipeline/direct_transfer.h"
-#include "pipeline/lamp_bounces.h"
-#include "pipeline/light_transport.h"
-#include "plan/plan.h"
+#include "bake/pipeline/direct_transfer.h"
+#include "bake/pipeline/lamp_bounces.h"
+#include "bake/pipeline/light_transport.h"
+#include "bake/plan/plan.h"
 
 namespace prt {
 

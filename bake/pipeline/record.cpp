@@ -1,8 +1,8 @@
 // Records the options of a bake, and selects the smallest storage format that its noise permits.
 
-#include "pipeline/record.h"
+#include "bake/pipeline/record.h"
 
-#include "prt/support/counted.h"
+#include "runtime/support/counted.h"
 
 #include <fmt/core.h>
 #include <glm/gtc/packing.hpp>

@@ -2,8 +2,8 @@
 
 // Result of a bake, with its record and statistics.
 
-#include "pipeline/direct.h"
-#include "pipeline/light_transport.h"
+#include "bake/pipeline/direct.h"
+#include "bake/pipeline/light_transport.h"
 
 namespace prt {
 

@@ -1,12 +1,12 @@
 // Estimates the sampling error of direct light from a second, independent scramble of a few receivers, chosen
 // by importance (docs/math.md, section 9).
 
-#include "pipeline/sampling_error.h"
+#include "bake/pipeline/sampling_error.h"
 
-#include "prt/sh_basis.h"
-#include "prt/trace_receivers.h"
-#include "trace/picked.h"
-#include "trace/scrambles.h"
+#include "bake/trace/picked.h"
+#include "bake/trace/scrambles.h"
+#include "bake/trace/trace_receivers.h"
+#include "prt/core/sh_basis.h"
 
 #include <algorithm>
 #include <cmath>

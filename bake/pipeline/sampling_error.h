@@ -2,7 +2,7 @@
 
 // Estimates the sampling error of a bake.
 
-#include "prt/tracer.h"
+#include "bake/trace/tracer.h"
 
 #include <stop_token>
 

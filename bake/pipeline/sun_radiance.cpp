@@ -1,11 +1,11 @@
 // Casts rays to suns from every receiver.
 
-#include "prt/sun_radiance.h"
+#include "bake/pipeline/sun_radiance.h"
 
-#include "pipeline/light_transport.h"
-#include "trace/disc_share.h"
-#include "trace/each_receiver.h"
-#include "trace/sample_sequence.h"
+#include "bake/pipeline/light_transport.h"
+#include "bake/trace/disc_share.h"
+#include "bake/trace/each_receiver.h"
+#include "bake/trace/sample_sequence.h"
 
 #include <limits>
 #include <numbers>

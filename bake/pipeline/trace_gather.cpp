@@ -1,10 +1,10 @@
 // Traces the gather operator (docs/math.md, section 7), grouping receivers by their number of rays.
 
-#include "pipeline/trace_gather.h"
+#include "bake/pipeline/trace_gather.h"
 
-#include "pipeline/direct.h"
-#include "plan/memory.h"
-#include "prt/trace_receivers.h"
+#include "bake/pipeline/direct.h"
+#include "bake/plan/memory.h"
+#include "bake/trace/trace_receivers.h"
 
 #include <algorithm>
 

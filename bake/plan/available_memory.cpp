@@ -1,6 +1,6 @@
 // Reads the memory of the machine and the limits of its control groups.
 
-#include "plan/available_memory.h"
+#include "bake/plan/available_memory.h"
 
 #include <algorithm>
 #include <fstream>

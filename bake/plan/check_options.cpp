@@ -1,9 +1,9 @@
 // Validates BakeOptions.
 
-#include "plan/check_options.h"
+#include "bake/plan/check_options.h"
 
-#include "prt/sh.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "prt/core/sh.h"
 
 #include <fmt/core.h>
 

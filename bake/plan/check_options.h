@@ -2,7 +2,7 @@
 
 // Validation of BakeOptions.
 
-#include "prt/bake_options.h"
+#include "prt/bake/bake_options.h"
 
 namespace prt {
 

@@ -1,13 +1,13 @@
 // Estimates the bytes of a bake before they are allocated: the system would end a bake that does not fit
 // after most of its work.
 
-#include "plan/memory.h"
+#include "bake/plan/memory.h"
 
-#include "plan/available_memory.h"
-#include "prt/bake_options.h"
-#include "prt/sh_basis.h"
-#include "prt/support/counted.h"
-#include "prt/support/error.h"
+#include "bake/plan/available_memory.h"
+#include "prt/bake/bake_options.h"
+#include "prt/core/error.h"
+#include "prt/core/sh_basis.h"
+#include "runtime/support/counted.h"
 
 #include <fmt/core.h>
 

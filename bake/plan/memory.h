@@ -2,7 +2,7 @@
 
 // Checks whether a bake fits into memory.
 
-#include "plan/plan.h"
+#include "bake/plan/plan.h"
 
 namespace prt {
 

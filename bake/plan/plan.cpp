@@ -1,10 +1,10 @@
 // Plans a bake: media, textures, bounces, channels and lamps of a scene.
 
-#include "plan/plan.h"
+#include "bake/plan/plan.h"
 
-#include "prt/support/error.h"
-#include "scene/material_notices.h"
-#include "scene/small_objects.h"
+#include "bake/scene/material_notices.h"
+#include "bake/scene/small_objects.h"
+#include "prt/core/error.h"
 
 #include <fmt/core.h>
 

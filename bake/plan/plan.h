@@ -2,11 +2,11 @@
 
 // Properties of a bake that are known before the first ray.
 
-#include "prt/bake_options.h"
-#include "prt/trace_scene.h"
-#include "scene/transport_receivers.h"
-#include "trace/choose_lamps.h"
-#include "transport/diffusion.h"
+#include "bake/scene/trace_scene.h"
+#include "bake/scene/transport_receivers.h"
+#include "bake/trace/choose_lamps.h"
+#include "bake/transport/diffusion.h"
+#include "prt/bake/bake_options.h"
 
 #include <memory>
 #include <optional>

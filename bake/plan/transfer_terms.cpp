@@ -1,11 +1,11 @@
 // Separates direct light from bounced light: suns can then be lit with sharp shadows, and each term has only
 // the channels that it needs.
 
-#include "plan/transfer_terms.h"
+#include "bake/plan/transfer_terms.h"
 
-#include "prt/sh_basis.h"
-#include "prt/support/error.h"
-#include "prt/support/printable.h"
+#include "prt/core/error.h"
+#include "prt/core/sh_basis.h"
+#include "runtime/support/printable.h"
 
 #include <fmt/core.h>
 

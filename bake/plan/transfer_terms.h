@@ -2,8 +2,8 @@
 
 // Splits exit transfer into light that arrives without a bounce and the rest (docs/math.md, section 7).
 
-#include "plan/plan.h"
-#include "scene/refill.h"
+#include "bake/plan/plan.h"
+#include "bake/scene/refill.h"
 
 namespace prt {
 

@@ -1,10 +1,10 @@
 // Orthographic depth maps (S. Hill, "Hardware Accelerating Art Production", Gamasutra 2004) and depth peeling
 // (C. Everitt, "Interactive Order-Independent Transparency", 2001).
 
-#include "raster/depth_maps.h"
+#include "bake/raster/depth_maps.h"
 
-#include "prt/sh.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "prt/core/sh.h"
 
 #include <epoxy/gl.h>
 #include <glm/geometric.hpp>

@@ -2,10 +2,10 @@
 
 // Orthographic depth maps of a scene.
 
-#include "prt/gl_objects.h"
-#include "prt/scene.h"
-#include "raster/raster_scene.h"
-#include "trace_gpu/gpu_structs.h"
+#include "bake/raster/raster_scene.h"
+#include "bake/trace_gpu/gpu_structs.h"
+#include "prt/gltf/scene.h"
+#include "runtime/render/gl/gl_objects.h"
 
 #include <array>
 #include <functional>

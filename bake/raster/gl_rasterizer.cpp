@@ -1,14 +1,14 @@
 // Direct transfer from depth maps (S. Hill, "Hardware Accelerating Art Production", Gamasutra 2004): draws
 // the scene once for each of many directions; every receiver compares its depth (shaders/bake_raster.comp).
 
-#include "raster/gl_rasterizer.h"
+#include "bake/raster/gl_rasterizer.h"
 
-#include "prt/sh.h"
-#include "prt/support/error.h"
-#include "prt/support/stopwatch.h"
-#include "trace/lamp_light.h"
-#include "trace_gpu/gpu_receivers.h"
-#include "trace_gpu/touching_triangles.h"
+#include "bake/trace/lamp_light.h"
+#include "bake/trace_gpu/gpu_receivers.h"
+#include "bake/trace_gpu/touching_triangles.h"
+#include "prt/core/error.h"
+#include "prt/core/sh.h"
+#include "runtime/support/stopwatch.h"
 
 #include <epoxy/gl.h>
 #include <glm/gtc/quaternion.hpp>

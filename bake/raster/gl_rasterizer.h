@@ -2,11 +2,11 @@
 
 // Tracer on the GPU by depth maps.
 
-#include "prt/gl_context.h"
-#include "prt/trace_scene.h"
-#include "prt/tracer.h"
-#include "raster/depth_maps.h"
-#include "raster/raster_scene.h"
+#include "bake/raster/depth_maps.h"
+#include "bake/raster/raster_scene.h"
+#include "bake/scene/trace_scene.h"
+#include "bake/trace/tracer.h"
+#include "prt/gl/gl_context.h"
 
 #include <map>
 #include <memory>

@@ -1,9 +1,9 @@
 // Uploads the data that depth maps are drawn from.
 
-#include "raster/raster_scene.h"
+#include "bake/raster/raster_scene.h"
 
-#include "raster/storage_buffer.h"
-#include "trace_gpu/alpha_tables.h"
+#include "bake/raster/storage_buffer.h"
+#include "bake/trace_gpu/alpha_tables.h"
 
 namespace prt {
 

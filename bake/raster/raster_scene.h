@@ -2,8 +2,8 @@
 
 // A scene in the buffers that depth maps are drawn from.
 
-#include "prt/gl_objects.h"
-#include "prt/trace_scene.h"
+#include "bake/scene/trace_scene.h"
+#include "runtime/render/gl/gl_objects.h"
 
 #include <string>
 

@@ -2,7 +2,7 @@
 
 // Storage buffers of OpenGL.
 
-#include "prt/gl_objects.h"
+#include "runtime/render/gl/gl_objects.h"
 
 #include <epoxy/gl.h>
 

@@ -1,8 +1,8 @@
 // Follows paths from the backs of triangles until they find light.
 
-#include "reference/back_reach.h"
+#include "bake/reference/back_reach.h"
 
-#include "prt/support/parallel.h"
+#include "runtime/support/parallel.h"
 
 #include <glm/geometric.hpp>
 

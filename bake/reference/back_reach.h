@@ -2,9 +2,9 @@
 
 // Determines which backs of surfaces receive light.
 
-#include "prt/scene_lamps.h"
-#include "reference/light_paths.h"
-#include "trace/choose_lamps.h"
+#include "bake/reference/light_paths.h"
+#include "bake/reference/scene_lamps.h"
+#include "bake/trace/choose_lamps.h"
 
 #include <cstdint>
 #include <span>

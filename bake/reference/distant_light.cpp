@@ -1,8 +1,8 @@
 // Samples the texels of an environment in proportion to their power.
 
-#include "prt/distant_light.h"
+#include "bake/reference/distant_light.h"
 
-#include "prt/light.h"
+#include "prt/core/light.h"
 
 #include <glm/geometric.hpp>
 

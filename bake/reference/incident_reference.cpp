@@ -1,14 +1,14 @@
 // Traces paths from positions in free space, in directions uniform over the sphere.
 
-#include "prt/incident_reference.h"
+#include "bake/reference/incident_reference.h"
 
-#include "prt/bake_options.h"
-#include "prt/sh.h"
-#include "prt/support/error.h"
-#include "reference/light_paths.h"
-#include "scene/transmittance.h"
-#include "trace/each_receiver.h"
-#include "trace/sample_sequence.h"
+#include "bake/reference/light_paths.h"
+#include "bake/scene/transmittance.h"
+#include "bake/trace/each_receiver.h"
+#include "bake/trace/sample_sequence.h"
+#include "prt/bake/bake_options.h"
+#include "prt/core/error.h"
+#include "prt/core/sh.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -1,10 +1,10 @@
 // Weights the receivers visible in a picture by the area that they cover.
 
-#include "prt/light_meter.h"
+#include "bake/reference/light_meter.h"
 
-#include "prt/light.h"
-#include "prt/lightmap_lookup.h"
-#include "reference/sun_light.h"
+#include "bake/reference/sun_light.h"
+#include "prt/core/light.h"
+#include "runtime/render/lightmap_lookup.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -1,9 +1,9 @@
 // Traces light paths.
 
-#include "reference/light_paths.h"
+#include "bake/reference/light_paths.h"
 
-#include "prt/support/tangent_frame.h"
-#include "scene/transmittance.h"
+#include "bake/scene/transmittance.h"
+#include "runtime/support/tangent_frame.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

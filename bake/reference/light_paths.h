@@ -3,11 +3,11 @@
 // Paths from visible surfaces to distant light: next-event estimation and cosine sampling, combined by the
 // balance heuristic (E. Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997).
 
-#include "prt/distant_light.h"
-#include "prt/scene_lamps.h"
-#include "prt/trace_scene.h"
-#include "scene/lit_side.h"
-#include "trace/sample_sequence.h"
+#include "bake/reference/distant_light.h"
+#include "bake/reference/scene_lamps.h"
+#include "bake/scene/lit_side.h"
+#include "bake/scene/trace_scene.h"
+#include "bake/trace/sample_sequence.h"
 
 #include <glm/vec2.hpp>
 

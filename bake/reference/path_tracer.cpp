@@ -1,9 +1,9 @@
 // Traces paths through the pixels of a picture.
 
-#include "prt/path_tracer.h"
+#include "bake/reference/path_tracer.h"
 
-#include "prt/support/parallel.h"
-#include "reference/light_paths.h"
+#include "bake/reference/light_paths.h"
+#include "runtime/support/parallel.h"
 
 #include <glm/geometric.hpp>
 

@@ -1,8 +1,8 @@
 // Primary rays with the footprints of their pixels, for texture filtering as in OpenGL.
 
-#include "reference/primary_rays.h"
+#include "bake/reference/primary_rays.h"
 
-#include "scene/interpolated.h"
+#include "bake/scene/interpolated.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -2,8 +2,8 @@
 
 // Visible surfaces along the ray through a pixel, front to back.
 
-#include "prt/picture.h"
-#include "prt/ray_scene.h"
+#include "bake/scene/ray_scene.h"
+#include "prt/render/picture.h"
 
 namespace prt {
 

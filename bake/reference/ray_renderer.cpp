@@ -1,10 +1,10 @@
 // Draws pictures with primary rays, and with rays from visible surfaces to the suns.
 
-#include "prt/ray_renderer.h"
+#include "bake/reference/ray_renderer.h"
 
-#include "prt/lightmap_lookup.h"
-#include "prt/support/parallel.h"
-#include "reference/sun_light.h"
+#include "bake/reference/sun_light.h"
+#include "runtime/render/lightmap_lookup.h"
+#include "runtime/support/parallel.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -1,13 +1,13 @@
 // Samples lights one by one, and emissive surfaces by area, whereas the baker samples solid angles. The two
 // implementations share only the scene's definitions, cones and ranges.
 
-#include "prt/scene_lamps.h"
+#include "bake/reference/scene_lamps.h"
 
-#include "prt/light.h"
-#include "prt/support/counted.h"
-#include "prt/support/error.h"
-#include "scene/punctual.h"
-#include "scene/transmittance.h"
+#include "bake/scene/punctual.h"
+#include "bake/scene/transmittance.h"
+#include "prt/core/error.h"
+#include "prt/core/light.h"
+#include "runtime/support/counted.h"
 
 #include <fmt/core.h>
 #include <glm/geometric.hpp>

@@ -1,8 +1,8 @@
 // Casts rays to suns from surfaces that a camera sees, as the path tracer does.
 
-#include "reference/sun_light.h"
+#include "bake/reference/sun_light.h"
 
-#include "scene/transmittance.h"
+#include "bake/scene/transmittance.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

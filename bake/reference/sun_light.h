@@ -2,10 +2,10 @@
 
 // Light of suns at a pixel, shadowed by rays.
 
-#include "prt/trace_scene.h"
-#include "reference/primary_rays.h"
-#include "scene/lit_side.h"
-#include "trace/disc_directions.h"
+#include "bake/reference/primary_rays.h"
+#include "bake/scene/lit_side.h"
+#include "bake/scene/trace_scene.h"
+#include "bake/trace/disc_directions.h"
 
 #include <vector>
 

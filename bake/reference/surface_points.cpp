@@ -1,13 +1,13 @@
 // Selects points between vertices by area.
 
-#include "prt/surface_points.h"
+#include "bake/reference/surface_points.h"
 
-#include "prt/trace_receivers.h"
-#include "scene/interpolated.h"
-#include "surface_fit/surface_samples.h"
-#include "trace/embree_tracer.h"
-#include "trace/picked.h"
-#include "trace/sealed.h"
+#include "bake/scene/interpolated.h"
+#include "bake/surface_fit/surface_samples.h"
+#include "bake/trace/embree_tracer.h"
+#include "bake/trace/picked.h"
+#include "bake/trace/sealed.h"
+#include "bake/trace/trace_receivers.h"
 
 #include <glm/vector_relational.hpp>
 

@@ -2,14 +2,14 @@
 // radiance (with light from next-event estimation along the path), the radiance of the sky's bands, and the
 // radiance of the suns' bands.
 
-#include "prt/surface_radiance.h"
+#include "bake/reference/surface_radiance.h"
 
-#include "prt/bake_options.h"
-#include "prt/sh.h"
-#include "prt/support/stopwatch.h"
-#include "reference/light_paths.h"
-#include "trace/disc_share.h"
-#include "trace/each_receiver.h"
+#include "bake/reference/light_paths.h"
+#include "bake/trace/disc_share.h"
+#include "bake/trace/each_receiver.h"
+#include "prt/bake/bake_options.h"
+#include "prt/core/sh.h"
+#include "runtime/support/stopwatch.h"
 
 #include <glm/geometric.hpp>
 

@@ -1,9 +1,9 @@
 // Traces points between vertices, independent of the samples of a bake.
 
-#include "prt/surface_reference.h"
+#include "bake/reference/surface_reference.h"
 
-#include "prt/trace_receivers.h"
-#include "trace/embree_tracer.h"
+#include "bake/trace/embree_tracer.h"
+#include "bake/trace/trace_receivers.h"
 
 #include <cmath>
 #include <numeric>

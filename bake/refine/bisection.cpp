@@ -1,6 +1,6 @@
 // Longest-edge refinement: marks spread to longest edges, then each triangle is split at its marked edges.
 
-#include "refine/bisection.h"
+#include "bake/refine/bisection.h"
 
 #include <algorithm>
 

@@ -4,8 +4,8 @@
 // triangular grids suitable for adaptive and multigrid techniques", International Journal for Numerical
 // Methods in Engineering 20, 1984). Angles stay above a bound for any number of splits.
 
-#include "prt/refinement.h"
-#include "refine/welded_edges.h"
+#include "bake/refine/welded_edges.h"
+#include "prt/gltf/refinement.h"
 
 #include <glm/vec2.hpp>
 

@@ -1,8 +1,8 @@
 // Bisects triangles until all edges are short.
 
-#include "refine/even_refinement.h"
+#include "bake/refine/even_refinement.h"
 
-#include "refine/bisection.h"
+#include "bake/refine/bisection.h"
 
 #include <algorithm>
 

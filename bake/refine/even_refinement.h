@@ -2,7 +2,7 @@
 
 // Meshes whose edges are short everywhere, independent of light.
 
-#include "prt/scene.h"
+#include "prt/gltf/scene.h"
 
 namespace prt {
 

@@ -1,12 +1,12 @@
 // Spreads points over triangles, traces them, and moves them to the new triangles after a split.
 
-#include "refine/light_points.h"
+#include "bake/refine/light_points.h"
 
-#include "prt/sh_basis.h"
-#include "prt/trace_receivers.h"
-#include "trace/sample_sequence.h"
-#include "trace/scrambles.h"
-#include "trace/sealed.h"
+#include "bake/trace/sample_sequence.h"
+#include "bake/trace/scrambles.h"
+#include "bake/trace/sealed.h"
+#include "bake/trace/trace_receivers.h"
+#include "prt/core/sh_basis.h"
 
 #include <glm/geometric.hpp>
 #include <glm/mat2x2.hpp>

@@ -2,10 +2,10 @@
 
 // Points that stay at their position on a surface when its triangles are split, and the light at them.
 
-#include "prt/bake.h"
-#include "prt/tracer.h"
-#include "refine/bisection.h"
-#include "surface_fit/surface_samples.h"
+#include "bake/refine/bisection.h"
+#include "bake/surface_fit/surface_samples.h"
+#include "bake/trace/tracer.h"
+#include "prt/bake/bake.h"
 
 #include <array>
 #include <cstddef>

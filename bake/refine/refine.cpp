@@ -1,13 +1,13 @@
 // Splits the triangles that have most of the error, and measures the error again, until it is small enough.
 
-#include "prt/refine.h"
+#include "prt/bake/refine.h"
 
-#include "plan/plan.h"
-#include "prt/make_tracer.h"
-#include "prt/sh.h"
-#include "prt/support/error.h"
-#include "prt/support/stopwatch.h"
-#include "refine/surface_error.h"
+#include "bake/plan/plan.h"
+#include "bake/refine/surface_error.h"
+#include "bake/tracers/make_tracer.h"
+#include "prt/core/error.h"
+#include "prt/core/sh.h"
+#include "runtime/support/stopwatch.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 // Finds double-sided surfaces whose backs are lit, patch by patch.
 
-#include "plan/plan.h"
-#include "prt/sides.h"
-#include "prt/support/parallel.h"
-#include "reference/back_reach.h"
+#include "bake/plan/plan.h"
+#include "bake/reference/back_reach.h"
+#include "bake/refine/sides.h"
+#include "runtime/support/parallel.h"
 
 #include <glm/geometric.hpp>
 

@@ -1,10 +1,10 @@
 // Cross-validates a fit of two folds.
 
-#include "refine/surface_error.h"
+#include "bake/refine/surface_error.h"
 
-#include "surface_fit/fit_solver.h"
-#include "surface_fit/smoothness_weights.h"
-#include "trace/scrambles.h"
+#include "bake/surface_fit/fit_solver.h"
+#include "bake/surface_fit/smoothness_weights.h"
+#include "bake/trace/scrambles.h"
 
 #include <algorithm>
 #include <array>

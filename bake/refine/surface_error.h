@@ -2,7 +2,7 @@
 
 // Measures the difference between light that is fitted to vertices and light at points between them.
 
-#include "refine/light_points.h"
+#include "bake/refine/light_points.h"
 
 #include <vector>
 

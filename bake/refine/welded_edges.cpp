@@ -1,6 +1,6 @@
 // Numbers the edges of a scene by the positions of their ends.
 
-#include "refine/welded_edges.h"
+#include "bake/refine/welded_edges.h"
 
 #include <glm/geometric.hpp>
 

@@ -2,7 +2,7 @@
 
 // Edges of a scene by position, independent of vertices.
 
-#include "prt/scene.h"
+#include "prt/gltf/scene.h"
 
 #include <array>
 #include <cstdint>

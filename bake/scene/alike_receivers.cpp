@@ -1,6 +1,6 @@
 // Finds vertices that were duplicated for texture coordinates or materials.
 
-#include "scene/alike_receivers.h"
+#include "bake/scene/alike_receivers.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -2,8 +2,8 @@
 
 // Finds vertices that a mesh contains several times at one position.
 
-#include "prt/receivers.h"
-#include "prt/surfaces.h"
+#include "bake/scene/receivers.h"
+#include "bake/scene/surfaces.h"
 
 #include <cstdint>
 #include <span>

@@ -1,8 +1,8 @@
 // Distance fall-off of occlusion.
 
-#include "prt/bake_options.h"
+#include "prt/bake/bake_options.h"
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 
 #include <cmath>
 

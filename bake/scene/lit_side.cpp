@@ -1,8 +1,8 @@
 // Computes the side of a triangle that a ray hit.
 
-#include "scene/lit_side.h"
+#include "bake/scene/lit_side.h"
 
-#include "scene/interpolated.h"
+#include "bake/scene/interpolated.h"
 
 #include <glm/common.hpp>
 

@@ -3,8 +3,8 @@
 // Shading of surfaces in pictures: by interpolated normals, but only on the side of the triangle that faces
 // the light.
 
-#include "prt/ray_scene.h"
-#include "prt/surfaces.h"
+#include "bake/scene/ray_scene.h"
+#include "bake/scene/surfaces.h"
 
 #include <glm/geometric.hpp>
 

@@ -1,8 +1,8 @@
 // Reports materials that our model of light does not fully support.
 
-#include "scene/material_notices.h"
+#include "bake/scene/material_notices.h"
 
-#include "prt/support/counted.h"
+#include "runtime/support/counted.h"
 
 #include <fmt/core.h>
 

@@ -2,7 +2,7 @@
 
 // Notices about materials.
 
-#include "prt/scene.h"
+#include "prt/gltf/scene.h"
 
 #include <string>
 #include <vector>

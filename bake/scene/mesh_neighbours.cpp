@@ -1,8 +1,8 @@
 // Finds receivers that are connected, across duplicated vertices of the mesh.
 
-#include "scene/mesh_neighbours.h"
+#include "bake/scene/mesh_neighbours.h"
 
-#include "scene/alike_receivers.h"
+#include "bake/scene/alike_receivers.h"
 
 namespace prt {
 namespace {

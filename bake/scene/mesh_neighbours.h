@@ -2,9 +2,9 @@
 
 // Neighbours of receivers along the edges of a mesh.
 
-#include "prt/adjacency.h"
-#include "prt/receivers.h"
-#include "prt/surfaces.h"
+#include "bake/scene/receivers.h"
+#include "bake/scene/surfaces.h"
+#include "prt/core/adjacency.h"
 
 #include <cstdint>
 #include <span>

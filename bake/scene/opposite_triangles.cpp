@@ -1,6 +1,6 @@
 // Finds pairs of opposite triangles by a hash of their corner positions.
 
-#include "scene/opposite_triangles.h"
+#include "bake/scene/opposite_triangles.h"
 
 #include <algorithm>
 #include <bit>

@@ -2,8 +2,8 @@
 
 // Surfaces that a mesh contains twice, once for each side.
 
-#include "prt/ray_scene.h"
-#include "prt/scene.h"
+#include "bake/scene/ray_scene.h"
+#include "prt/gltf/scene.h"
 
 #include <glm/vec2.hpp>
 

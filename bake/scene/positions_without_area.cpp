@@ -1,6 +1,6 @@
 // Finds the receivers at the position of a vertex.
 
-#include "scene/positions_without_area.h"
+#include "bake/scene/positions_without_area.h"
 
 #include <glm/geometric.hpp>
 

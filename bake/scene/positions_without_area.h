@@ -2,8 +2,8 @@
 
 // Vertices of triangles without area; they take the light of a vertex at the same position.
 
-#include "prt/receivers.h"
-#include "prt/transfer.h"
+#include "bake/scene/receivers.h"
+#include "prt/core/transfer.h"
 
 #include <cstddef>
 

@@ -1,8 +1,8 @@
 // The cone and the range of KHR_lights_punctual.
 
-#include "scene/punctual.h"
+#include "bake/scene/punctual.h"
 
-#include "scene/lamp_geometry.h"
+#include "bake/scene/lamp_geometry.h"
 
 #include <cmath>
 

@@ -2,7 +2,7 @@
 
 // Light of KHR_lights_punctual without occlusion.
 
-#include "prt/scene.h"
+#include "prt/gltf/scene.h"
 
 #include <glm/vec3.hpp>
 

@@ -1,10 +1,10 @@
 // Embree's hierarchy of the triangles of a scene (Wald et al. 2014), and offsets of rays from its surfaces.
 
-#include "prt/ray_scene.h"
+#include "bake/scene/ray_scene.h"
 
-#include "prt/support/error.h"
-#include "prt/support/parallel.h"
-#include "scene/opposite_triangles.h"
+#include "bake/scene/opposite_triangles.h"
+#include "prt/core/error.h"
+#include "runtime/support/parallel.h"
 #include "shared_bake.h"
 
 #include <embree3/rtcore.h>

@@ -1,7 +1,7 @@
 // Finds ray origins in front of all faces of a vertex, from the nearest point of the convex hull of their
 // normals (B. F. Mitchell, V. F. Dem'yanov and V. N. Malozemov, SIAM J. Control 12, 1974).
 
-#include "scene/ray_starts.h"
+#include "bake/scene/ray_starts.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -2,7 +2,7 @@
 
 // Origins of the rays of a vertex (docs/math.md, section 3).
 
-#include "prt/scene.h"
+#include "prt/gltf/scene.h"
 
 #include <glm/vec3.hpp>
 

@@ -1,9 +1,9 @@
 // Converts vertices to receivers, and computes their transfer without shadows.
 
-#include "prt/receivers.h"
+#include "bake/scene/receivers.h"
 
-#include "prt/sh.h"
-#include "scene/ray_starts.h"
+#include "bake/scene/ray_starts.h"
+#include "prt/core/sh.h"
 
 #include <array>
 

@@ -1,6 +1,6 @@
 // Plans how values fill sealed receivers, ring by ring from the outside.
 
-#include "scene/refill.h"
+#include "bake/scene/refill.h"
 
 namespace prt {
 

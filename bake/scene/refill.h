@@ -2,7 +2,7 @@
 
 // Repairs receivers that are sealed in.
 
-#include "scene/mesh_neighbours.h"
+#include "bake/scene/mesh_neighbours.h"
 
 #include <algorithm>
 #include <cstdint>

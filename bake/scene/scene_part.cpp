@@ -1,6 +1,6 @@
 // Copies some primitives of a scene.
 
-#include "scene/scene_part.h"
+#include "bake/scene/scene_part.h"
 
 #include <map>
 

@@ -2,7 +2,7 @@
 
 // A subset of a scene's primitives.
 
-#include "prt/scene.h"
+#include "prt/gltf/scene.h"
 
 #include <cstdint>
 #include <span>

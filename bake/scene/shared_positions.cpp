@@ -1,9 +1,9 @@
 // Groups front receivers at one position that see each other.
 
-#include "scene/shared_positions.h"
+#include "bake/scene/shared_positions.h"
 
-#include "prt/support/parallel.h"
-#include "scene/alike_receivers.h"
+#include "bake/scene/alike_receivers.h"
+#include "runtime/support/parallel.h"
 
 #include <algorithm>
 #include <numeric>

@@ -2,9 +2,9 @@
 
 // Vertices that are duplicated for reasons other than light.
 
-#include "prt/trace_scene.h"
-#include "prt/transfer.h"
-#include "scene/transport_receivers.h"
+#include "bake/scene/trace_scene.h"
+#include "bake/scene/transport_receivers.h"
+#include "prt/core/transfer.h"
 
 #include <cstdint>
 #include <vector>

@@ -1,9 +1,9 @@
 // Finds objects that are too small for the offset of their rays.
 
-#include "scene/small_objects.h"
+#include "bake/scene/small_objects.h"
 
-#include "prt/ray_scene.h"
-#include "prt/support/counted.h"
+#include "bake/scene/ray_scene.h"
+#include "runtime/support/counted.h"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>

@@ -1,9 +1,9 @@
 // The dipole and the measured media of H. W. Jensen, S. R. Marschner, M. Levoy, P. Hanrahan, "A Practical
 // Model for Subsurface Light Transport", SIGGRAPH 2001.
 
-#include "prt/bake_options.h"
+#include "prt/bake/bake_options.h"
 
-#include "prt/light_passing.h"
+#include "runtime/scene/light_passing.h"
 
 #include <algorithm>
 #include <array>

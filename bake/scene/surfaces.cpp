@@ -1,12 +1,12 @@
 // Computes coverage, reflectance and transmittance of points on surfaces from materials and textures
 // (docs/math.md, section 6).
 
-#include "prt/surfaces.h"
+#include "bake/scene/surfaces.h"
 
-#include "prt/light.h"
-#include "prt/light_passing.h"
-#include "prt/tone_map.h"
-#include "scene/interpolated.h"
+#include "bake/scene/interpolated.h"
+#include "prt/core/light.h"
+#include "prt/render/tone_map.h"
+#include "runtime/scene/light_passing.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

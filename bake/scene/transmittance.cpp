@@ -1,6 +1,6 @@
 // Follows a shadow ray through all surfaces that transmit a part of it.
 
-#include "scene/transmittance.h"
+#include "bake/scene/transmittance.h"
 
 #include <cmath>
 

@@ -2,8 +2,8 @@
 
 // Transmittance along shadow rays.
 
-#include "prt/ray_scene.h"
-#include "prt/surfaces.h"
+#include "bake/scene/ray_scene.h"
+#include "bake/scene/surfaces.h"
 
 #include <limits>
 

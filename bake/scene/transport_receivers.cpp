@@ -1,8 +1,8 @@
 // Adds back sides to receivers on surfaces that scatter light there.
 
-#include "scene/transport_receivers.h"
+#include "bake/scene/transport_receivers.h"
 
-#include "scene/ray_starts.h"
+#include "bake/scene/ray_starts.h"
 
 namespace prt {
 

@@ -2,9 +2,9 @@
 
 // Receivers on both sides of surfaces.
 
-#include "prt/receivers.h"
-#include "prt/surfaces.h"
-#include "scene/alike_receivers.h"
+#include "bake/scene/alike_receivers.h"
+#include "bake/scene/receivers.h"
+#include "bake/scene/surfaces.h"
 
 #include <cstdint>
 #include <vector>

@@ -1,15 +1,15 @@
 // Bakes direct light with an increasing number of rays on every backend, and measures its time and its error
 // against a bake with many more rays from another seed.
 
-#include "prt/bench.h"
+#include "bake/studies/bench.h"
 
-#include "prt/bake.h"
-#include "prt/error_measures.h"
-#include "prt/make_tracer.h"
-#include "prt/support/error.h"
-#include "prt/support/stopwatch.h"
-#include "prt/surface_reference.h"
-#include "prt/trace_receivers.h"
+#include "bake/reference/surface_reference.h"
+#include "bake/trace/trace_receivers.h"
+#include "bake/tracers/make_tracer.h"
+#include "prt/bake/bake.h"
+#include "prt/core/error.h"
+#include "prt/core/error_measures.h"
+#include "runtime/support/stopwatch.h"
 
 #include <fmt/core.h>
 

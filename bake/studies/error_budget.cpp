@@ -1,11 +1,11 @@
 // Multiplies differences from two independent references: the mean of their noise is zero. Intervals are
 // computed by resampling points (B. Efron, "Bootstrap Methods: Another Look at the Jackknife", 1979).
 
-#include "prt/error_budget.h"
+#include "bake/studies/error_budget.h"
 
-#include "prt/bake.h"
-#include "prt/light.h"
-#include "prt/error_measures.h"
+#include "prt/bake/bake.h"
+#include "prt/core/error_measures.h"
+#include "prt/core/light.h"
 
 #include <glm/geometric.hpp>
 

@@ -1,10 +1,10 @@
 // Repeats a bake from its record, and checks that the result differs only by noise.
 
-#include "prt/repeated_bake.h"
+#include "bake/studies/repeated_bake.h"
 
-#include "prt/bake.h"
-#include "prt/lightmap_bake.h"
-#include "prt/support/error.h"
+#include "prt/bake/bake.h"
+#include "prt/bake/lightmap_bake.h"
+#include "prt/core/error.h"
 
 #include <fmt/core.h>
 

@@ -1,12 +1,12 @@
 // Compares interpolation between vertices with rays from points between them.
 
-#include "surface_fit/fit_choice.h"
+#include "bake/surface_fit/fit_choice.h"
 
-#include "prt/trace_receivers.h"
-#include "surface_fit/surface_samples.h"
-#include "surface_fit/varied_samples.h"
-#include "trace/scrambles.h"
-#include "trace/sealed.h"
+#include "bake/surface_fit/surface_samples.h"
+#include "bake/surface_fit/varied_samples.h"
+#include "bake/trace/scrambles.h"
+#include "bake/trace/sealed.h"
+#include "bake/trace/trace_receivers.h"
 
 #include <algorithm>
 #include <cmath>

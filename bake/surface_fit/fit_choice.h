@@ -2,8 +2,8 @@
 
 // Decides whether to measure light at vertices or over the surface between them.
 
-#include "plan/plan.h"
-#include "prt/tracer.h"
+#include "bake/plan/plan.h"
+#include "bake/trace/tracer.h"
 
 #include <cstddef>
 

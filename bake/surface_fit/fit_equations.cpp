@@ -1,6 +1,6 @@
 // Numbers the unknowns of a mesh and creates the equations of its samples.
 
-#include "surface_fit/fit_equations.h"
+#include "bake/surface_fit/fit_equations.h"
 
 #include <algorithm>
 

@@ -3,9 +3,9 @@
 // Least-squares fit of vertex values whose interpolation matches samples of the surface (L. Kavan, A. W.
 // Bargteil and P.-P. Sloan, "Least Squares Vertex Baking", EGSR 2011; docs/math.md, section 14).
 
-#include "surface_fit/smoothness.h"
-#include "surface_fit/surface_samples.h"
-#include "trace/vector_sums.h"
+#include "bake/surface_fit/smoothness.h"
+#include "bake/surface_fit/surface_samples.h"
+#include "bake/trace/vector_sums.h"
 
 #include <array>
 #include <cstdint>

@@ -1,10 +1,10 @@
 // Estimates the noise of sums over samples with random signs, and chooses smoothness weights by it.
 
-#include "surface_fit/fit_noise.h"
+#include "bake/surface_fit/fit_noise.h"
 
-#include "surface_fit/smoothness_weights.h"
-#include "trace/sample_sequence.h"
-#include "trace/scrambles.h"
+#include "bake/surface_fit/smoothness_weights.h"
+#include "bake/trace/sample_sequence.h"
+#include "bake/trace/scrambles.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 // Fits that follow the curvature of light but not its noise (docs/math.md, section 14).
 
-#include "surface_fit/fit_solver.h"
+#include "bake/surface_fit/fit_solver.h"
 
 #include <cstdint>
 #include <span>

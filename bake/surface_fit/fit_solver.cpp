@@ -2,9 +2,9 @@
 // 1952), several columns at a time, so that the matrix is read once for all of them. The diagonal of a mass
 // matrix is a good approximation, so that a few dozen steps suffice, which is faster than a factorisation.
 
-#include "surface_fit/fit_solver.h"
+#include "bake/surface_fit/fit_solver.h"
 
-#include "prt/support/parallel.h"
+#include "runtime/support/parallel.h"
 
 #include <Eigen/SparseCore>
 

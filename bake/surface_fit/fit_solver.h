@@ -2,7 +2,7 @@
 
 // Solver of the equations of a surface fit.
 
-#include "surface_fit/fit_equations.h"
+#include "bake/surface_fit/fit_equations.h"
 
 #include <memory>
 #include <span>

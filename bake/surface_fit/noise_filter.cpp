@@ -1,12 +1,12 @@
 // Filters light with the equations of a surface fit that has a sample at each receiver.
 
-#include "surface_fit/noise_filter.h"
+#include "bake/surface_fit/noise_filter.h"
 
-#include "prt/sh_basis.h"
-#include "prt/support/parallel.h"
-#include "surface_fit/smoothness_weights.h"
-#include "surface_fit/surface_fit.h"
-#include "trace/scrambles.h"
+#include "bake/surface_fit/smoothness_weights.h"
+#include "bake/surface_fit/surface_fit.h"
+#include "bake/trace/scrambles.h"
+#include "prt/core/sh_basis.h"
+#include "runtime/support/parallel.h"
 
 #include <algorithm>
 #include <cmath>

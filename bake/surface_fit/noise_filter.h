@@ -2,9 +2,9 @@
 
 // Removes the noise of rays from light.
 
-#include "plan/plan.h"
-#include "scene/shared_positions.h"
-#include "surface_fit/fit_noise.h"
+#include "bake/plan/plan.h"
+#include "bake/scene/shared_positions.h"
+#include "bake/surface_fit/fit_noise.h"
 
 #include <cstdint>
 #include <functional>

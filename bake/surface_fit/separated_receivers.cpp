@@ -1,6 +1,6 @@
 // Finds vertices at one position with different light.
 
-#include "surface_fit/separated_receivers.h"
+#include "bake/surface_fit/separated_receivers.h"
 
 #include <algorithm>
 #include <cmath>

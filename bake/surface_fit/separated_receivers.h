@@ -2,8 +2,8 @@
 
 // Separates vertices at one position that have different light.
 
-#include "surface_fit/fit_equations.h"
-#include "surface_fit/value_limits.h"
+#include "bake/surface_fit/fit_equations.h"
+#include "bake/surface_fit/value_limits.h"
 
 #include <cstdint>
 #include <vector>

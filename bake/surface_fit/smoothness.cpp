@@ -1,6 +1,6 @@
 // Compares the slopes of adjacent triangles, unfolded along their shared edge.
 
-#include "surface_fit/smoothness.h"
+#include "bake/surface_fit/smoothness.h"
 
 #include <glm/geometric.hpp>
 

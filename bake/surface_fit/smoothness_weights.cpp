@@ -1,7 +1,7 @@
 // Chooses smoothness weights per edge: low where the light has curvature, for example at shadow edges, high
 // elsewhere.
 
-#include "surface_fit/smoothness_weights.h"
+#include "bake/surface_fit/smoothness_weights.h"
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 
 // Smoothness weights of a surface fit.
 
-#include "surface_fit/fit_equations.h"
+#include "bake/surface_fit/fit_equations.h"
 
 #include <span>
 #include <vector>

@@ -1,6 +1,6 @@
 // Fits light to samples within the range of the samples.
 
-#include "surface_fit/surface_fit.h"
+#include "bake/surface_fit/surface_fit.h"
 
 namespace prt {
 namespace {

@@ -2,8 +2,8 @@
 
 // Operators from light at samples of the surface to light at receivers.
 
-#include "surface_fit/fit_solver.h"
-#include "surface_fit/value_limits.h"
+#include "bake/surface_fit/fit_solver.h"
+#include "bake/surface_fit/value_limits.h"
 
 #include <optional>
 

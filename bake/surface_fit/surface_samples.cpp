@@ -1,9 +1,9 @@
 // Spreads samples over triangles by area, with at least one on each triangle.
 
-#include "surface_fit/surface_samples.h"
+#include "bake/surface_fit/surface_samples.h"
 
-#include "scene/interpolated.h"
-#include "trace/sample_sequence.h"
+#include "bake/scene/interpolated.h"
+#include "bake/trace/sample_sequence.h"
 
 #include <glm/geometric.hpp>
 

@@ -2,8 +2,8 @@
 
 // Points spread over the surfaces of a scene, where light is measured instead of at vertices.
 
-#include "prt/trace_scene.h"
-#include "scene/transport_receivers.h"
+#include "bake/scene/trace_scene.h"
+#include "bake/scene/transport_receivers.h"
 
 #include <array>
 #include <cstdint>

@@ -1,8 +1,8 @@
 // Mixes sharp values with smooth ones until they are within the range of the samples.
 
-#include "surface_fit/value_limits.h"
+#include "bake/surface_fit/value_limits.h"
 
-#include "prt/sh.h"
+#include "prt/core/sh.h"
 
 #include <glm/vec3.hpp>
 

@@ -3,7 +3,7 @@
 // Bounds of fitted values: the values of the samples around each vertex (a limiter, as in flux-limited
 // transport).
 
-#include "surface_fit/fit_equations.h"
+#include "bake/surface_fit/fit_equations.h"
 
 #include <cstdint>
 #include <span>

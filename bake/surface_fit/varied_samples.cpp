@@ -1,8 +1,8 @@
 // Spreads samples by their possible interpolation error.
 
-#include "surface_fit/varied_samples.h"
+#include "bake/surface_fit/varied_samples.h"
 
-#include "trace/picked.h"
+#include "bake/trace/picked.h"
 
 #include <algorithm>
 #include <limits>

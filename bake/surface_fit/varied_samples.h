@@ -2,7 +2,7 @@
 
 // Samples of the surface with densities that depend on light.
 
-#include "surface_fit/surface_samples.h"
+#include "bake/surface_fit/surface_samples.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,10 +1,10 @@
 // Groups lights and emissive surfaces by name.
 
-#include "trace/choose_lamps.h"
+#include "bake/trace/choose_lamps.h"
 
-#include "prt/light.h"
-#include "prt/support/error.h"
-#include "prt/support/printable.h"
+#include "prt/core/error.h"
+#include "prt/core/light.h"
+#include "runtime/support/printable.h"
 
 #include <fmt/core.h>
 

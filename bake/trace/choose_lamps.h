@@ -2,8 +2,8 @@
 
 // Groups the lights of a scene into lamps that are dimmed together.
 
-#include "prt/bake_options.h"
-#include "prt/surfaces.h"
+#include "bake/scene/surfaces.h"
+#include "prt/bake/bake_options.h"
 
 #include <cstdint>
 #include <string>

@@ -1,9 +1,9 @@
 // Computes the directions of a chunk of rays and the sum of their basis functions with SIMD registers.
 
-#include "trace/chunk_kernels.h"
+#include "bake/trace/chunk_kernels.h"
 
-#include "prt/sh_basis.h"
-#include "prt/support/vector_lanes.h"
+#include "prt/core/sh_basis.h"
+#include "runtime/support/vector_lanes.h"
 
 #include <cassert>
 #include <cmath>

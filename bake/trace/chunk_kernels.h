@@ -2,8 +2,8 @@
 
 // The two vectorised loops of the CPU baker, compiled for several vector widths.
 
-#include "prt/support/tangent_frame.h"
-#include "trace/sample_sequence.h"
+#include "bake/trace/sample_sequence.h"
+#include "runtime/support/tangent_frame.h"
 
 #include <array>
 #include <span>

@@ -2,9 +2,9 @@
 
 // Visibility of the disc of a light.
 
-#include "prt/trace_scene.h"
-#include "scene/transmittance.h"
-#include "trace/disc_directions.h"
+#include "bake/scene/trace_scene.h"
+#include "bake/scene/transmittance.h"
+#include "bake/trace/disc_directions.h"
 
 #include <glm/geometric.hpp>
 

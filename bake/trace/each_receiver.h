@@ -2,8 +2,8 @@
 
 // Parallel loop over receivers.
 
-#include "prt/support/parallel.h"
-#include "prt/support/progress.h"
+#include "prt/core/progress.h"
+#include "runtime/support/parallel.h"
 
 #include <algorithm>
 #include <cstdint>

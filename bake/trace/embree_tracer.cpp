@@ -2,16 +2,16 @@
 // chunk sums its blocked rays or its open rays, whichever are fewer. Open receivers get the exact lobe, fully
 // blocked ones exactly zero.
 
-#include "trace/embree_tracer.h"
+#include "bake/trace/embree_tracer.h"
 
-#include "prt/sh.h"
-#include "prt/support/counted.h"
-#include "prt/support/parallel.h"
-#include "prt/support/stopwatch.h"
-#include "scene/opposite_triangles.h"
+#include "bake/scene/opposite_triangles.h"
+#include "bake/trace/chunk_kernels.h"
+#include "bake/trace/lamp_light.h"
+#include "prt/core/sh.h"
+#include "runtime/support/counted.h"
+#include "runtime/support/parallel.h"
+#include "runtime/support/stopwatch.h"
 #include "shared_bake.h"
-#include "trace/chunk_kernels.h"
-#include "trace/lamp_light.h"
 
 #include <embree3/rtcore.h>
 #include <fmt/core.h>

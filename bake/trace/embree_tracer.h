@@ -2,8 +2,8 @@
 
 // Tracer on the CPU, with Embree.
 
-#include "prt/trace_scene.h"
-#include "prt/tracer.h"
+#include "bake/scene/trace_scene.h"
+#include "bake/trace/tracer.h"
 
 namespace prt {
 

@@ -1,10 +1,10 @@
 // Gathers the light of surfaces into rows, one row per receiver (docs/math.md, section 7).
 
-#include "trace/gather.h"
+#include "bake/trace/gather.h"
 
-#include "prt/sh_basis.h"
-#include "prt/support/parallel.h"
-#include "trace/sparse_rows.h"
+#include "bake/trace/sparse_rows.h"
+#include "prt/core/sh_basis.h"
+#include "runtime/support/parallel.h"
 
 #include <algorithm>
 #include <type_traits>

@@ -2,9 +2,9 @@
 
 // Interreflection as a sparse linear operator (docs/math.md, section 7).
 
-#include "prt/surfaces.h"
-#include "prt/tracer.h"
-#include "scene/transport_receivers.h"
+#include "bake/scene/surfaces.h"
+#include "bake/scene/transport_receivers.h"
+#include "bake/trace/tracer.h"
 
 #include <glm/vec3.hpp>
 

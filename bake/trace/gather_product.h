@@ -2,8 +2,8 @@
 
 // Product of a gather operator with exit transfer on a device that stores the operator.
 
-#include "prt/support/progress.h"
-#include "prt/transfer.h"
+#include "prt/core/progress.h"
+#include "prt/core/transfer.h"
 
 #include <cstddef>
 #include <optional>

@@ -1,11 +1,11 @@
 // Casts rays to lamps from every receiver, on the CPU.
 
-#include "trace/lamp_light.h"
+#include "bake/trace/lamp_light.h"
 
-#include "prt/tracer.h"
-#include "trace/each_receiver.h"
-#include "trace/lamp_rays.h"
-#include "trace/sample_sequence.h"
+#include "bake/trace/each_receiver.h"
+#include "bake/trace/lamp_rays.h"
+#include "bake/trace/sample_sequence.h"
+#include "bake/trace/tracer.h"
 
 #include <atomic>
 #include <numbers>

@@ -2,11 +2,11 @@
 
 // Light of a scene's lamps at its receivers, by shadow rays (docs/math.md, section 13).
 
-#include "prt/receivers.h"
-#include "prt/support/progress.h"
-#include "prt/trace_scene.h"
-#include "prt/transfer.h"
-#include "trace/choose_lamps.h"
+#include "bake/scene/receivers.h"
+#include "bake/scene/trace_scene.h"
+#include "bake/trace/choose_lamps.h"
+#include "prt/core/progress.h"
+#include "prt/core/transfer.h"
 
 #include <cstdint>
 #include <span>

@@ -1,11 +1,11 @@
 // Samples lamps by solid angle, so that no light is too near.
 
-#include "trace/lamp_rays.h"
+#include "bake/trace/lamp_rays.h"
 
-#include "prt/light.h"
-#include "scene/punctual.h"
-#include "scene/transmittance.h"
-#include "trace/disc_share.h"
+#include "bake/scene/punctual.h"
+#include "bake/scene/transmittance.h"
+#include "bake/trace/disc_share.h"
+#include "prt/core/light.h"
 
 #include <glm/common.hpp>
 

@@ -2,9 +2,9 @@
 
 // Shadow rays from a receiver to one lamp.
 
-#include "prt/trace_scene.h"
-#include "scene/lamp_geometry.h"
-#include "trace/choose_lamps.h"
+#include "bake/scene/lamp_geometry.h"
+#include "bake/scene/trace_scene.h"
+#include "bake/trace/choose_lamps.h"
 
 #include <glm/vec3.hpp>
 

@@ -1,6 +1,6 @@
 // Generates Sobol points in an order that keeps packets of rays narrow.
 
-#include "trace/sample_sequence.h"
+#include "bake/trace/sample_sequence.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,9 +1,9 @@
 // Finds receivers inside geometry by the surfaces that their rays hit.
 
-#include "trace/sealed.h"
+#include "bake/trace/sealed.h"
 
-#include "prt/trace_receivers.h"
-#include "trace/embree_tracer.h"
+#include "bake/trace/embree_tracer.h"
+#include "bake/trace/trace_receivers.h"
 
 #include <algorithm>
 #include <cmath>

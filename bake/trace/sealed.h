@@ -2,10 +2,10 @@
 
 // Finds receivers that no light can reach, because they are inside solid geometry.
 
-#include "prt/support/progress.h"
-#include "prt/trace_scene.h"
-#include "prt/tracer.h"
-#include "prt/transfer.h"
+#include "bake/scene/trace_scene.h"
+#include "bake/trace/tracer.h"
+#include "prt/core/progress.h"
+#include "prt/core/transfer.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,9 +1,9 @@
 // Multiplies sparse rows with transfer vectors in SIMD registers.
 
-#include "trace/sparse_rows.h"
+#include "bake/trace/sparse_rows.h"
 
-#include "prt/sh_basis.h"
-#include "prt/support/vector_lanes.h"
+#include "prt/core/sh_basis.h"
+#include "runtime/support/vector_lanes.h"
 
 #include <algorithm>
 

@@ -1,10 +1,10 @@
 // Passes receivers to a tracer in batches, for progress reports and cancellation.
 
-#include "prt/trace_receivers.h"
+#include "bake/trace/trace_receivers.h"
 
-#include "prt/sh_basis.h"
-#include "trace/gather_product.h"
-#include "trace/vector_sums.h"
+#include "bake/trace/gather_product.h"
+#include "bake/trace/vector_sums.h"
+#include "prt/core/sh_basis.h"
 
 #include <algorithm>
 #include <bit>

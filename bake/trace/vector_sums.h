@@ -2,7 +2,7 @@
 
 // Weighted sums of traced vectors, computed on the device that traces them.
 
-#include "prt/tracer.h"
+#include "bake/trace/tracer.h"
 
 #include <array>
 #include <cstdint>

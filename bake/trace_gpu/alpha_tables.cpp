@@ -1,8 +1,8 @@
 // Builds tables of surfaces that do not stop all light.
 
-#include "trace_gpu/alpha_tables.h"
+#include "bake/trace_gpu/alpha_tables.h"
 
-#include "prt/light_passing.h"
+#include "runtime/scene/light_passing.h"
 
 #include <glm/geometric.hpp>
 

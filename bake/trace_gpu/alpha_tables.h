@@ -2,8 +2,8 @@
 
 // Triangles of a scene in the layout of the bake shaders, and tables of triangles that do not stop all light.
 
-#include "prt/trace_scene.h"
-#include "trace_gpu/gpu_structs.h"
+#include "bake/scene/trace_scene.h"
+#include "bake/trace_gpu/gpu_structs.h"
 
 #include <cstdint>
 #include <span>

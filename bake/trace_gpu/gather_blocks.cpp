@@ -1,8 +1,8 @@
 // Uploads rows through one staging buffer.
 
-#include "trace_gpu/gather_blocks.h"
+#include "bake/trace_gpu/gather_blocks.h"
 
-#include "device/staged_writes.h"
+#include "bake/device/staged_writes.h"
 
 #include <algorithm>
 

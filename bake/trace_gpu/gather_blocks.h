@@ -3,8 +3,8 @@
 // Rows of a gather operator on a device, in blocks. The blocks that fit into memory stay there; the others
 // are uploaded when they are needed.
 
-#include "device/gpu_queue.h"
-#include "trace/gather.h"
+#include "bake/device/gpu_queue.h"
+#include "bake/trace/gather.h"
 
 #include <cstdint>
 #include <span>

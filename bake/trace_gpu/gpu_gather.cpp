@@ -1,12 +1,12 @@
 // Computes bounces on a device: exit transfer is in two buffers, and each bounce reads one and writes the
 // other.
 
-#include "trace_gpu/gpu_gather.h"
+#include "bake/trace_gpu/gpu_gather.h"
 
-#include "device/staged_writes.h"
-#include "prt/sh_basis.h"
-#include "prt/support/stopwatch.h"
-#include "trace_gpu/gpu_sum_row.h"
+#include "bake/device/staged_writes.h"
+#include "bake/trace_gpu/gpu_sum_row.h"
+#include "prt/core/sh_basis.h"
+#include "runtime/support/stopwatch.h"
 
 #include "kernels/bake_energy.h"
 #include "kernels/bake_gather.h"

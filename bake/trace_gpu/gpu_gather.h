@@ -2,9 +2,9 @@
 
 // Gather operator on a Vulkan device.
 
-#include "device/gpu_kernel.h"
-#include "trace/gather_product.h"
-#include "trace_gpu/gather_blocks.h"
+#include "bake/device/gpu_kernel.h"
+#include "bake/trace/gather_product.h"
+#include "bake/trace_gpu/gather_blocks.h"
 
 #include <memory>
 #include <optional>

@@ -1,9 +1,9 @@
 // Converts receivers to the layout of shaders.
 
-#include "trace_gpu/gpu_receivers.h"
+#include "bake/trace_gpu/gpu_receivers.h"
 
-#include "prt/support/parallel.h"
-#include "trace/sample_sequence.h"
+#include "bake/trace/sample_sequence.h"
+#include "runtime/support/parallel.h"
 
 #include <bit>
 

@@ -2,8 +2,8 @@
 
 // Receivers in the layout of shaders.
 
-#include "prt/trace_scene.h"
-#include "trace_gpu/gpu_structs.h"
+#include "bake/scene/trace_scene.h"
+#include "bake/trace_gpu/gpu_structs.h"
 
 #include <span>
 #include <vector>

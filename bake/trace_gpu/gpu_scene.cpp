@@ -1,9 +1,9 @@
 // Builds the hierarchy and the tables of a scene, and uploads them.
 
-#include "trace_gpu/gpu_scene.h"
+#include "bake/trace_gpu/gpu_scene.h"
 
-#include "trace_gpu/instanced_triangles.h"
-#include "trace_gpu/wide_bvh.h"
+#include "bake/trace_gpu/instanced_triangles.h"
+#include "bake/trace_gpu/wide_bvh.h"
 
 #include <algorithm>
 

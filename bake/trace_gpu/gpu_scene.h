@@ -2,10 +2,10 @@
 
 // A scene on a Vulkan device, in the layout of the tracing kernels.
 
-#include "device/acceleration_structure.h"
-#include "device/gpu_kernel.h"
-#include "prt/trace_scene.h"
-#include "trace_gpu/alpha_tables.h"
+#include "bake/device/acceleration_structure.h"
+#include "bake/device/gpu_kernel.h"
+#include "bake/scene/trace_scene.h"
+#include "bake/trace_gpu/alpha_tables.h"
 
 #include <map>
 #include <optional>

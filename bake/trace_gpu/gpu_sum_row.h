@@ -2,8 +2,8 @@
 
 // Rows of sums in the layout of shaders, and their fixed-point values.
 
-#include "trace/vector_sums.h"
-#include "trace_gpu/gpu_structs.h"
+#include "bake/trace/vector_sums.h"
+#include "bake/trace_gpu/gpu_structs.h"
 
 #include <span>
 

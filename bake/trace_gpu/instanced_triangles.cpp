@@ -1,9 +1,9 @@
 // Collects triangles without instances into one mesh, and each instanced mesh into its own mesh.
 
-#include "trace_gpu/instanced_triangles.h"
+#include "bake/trace_gpu/instanced_triangles.h"
 
-#include "trace_gpu/alpha_tables.h"
-#include "trace_gpu/instances.h"
+#include "bake/trace_gpu/alpha_tables.h"
+#include "bake/trace_gpu/instances.h"
 
 namespace prt {
 

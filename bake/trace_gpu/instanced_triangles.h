@@ -3,8 +3,8 @@
 // Triangles of a scene for the hierarchy of the device: each instanced mesh once, and the transforms of its
 // instances.
 
-#include "device/acceleration_structure.h"
-#include "prt/trace_scene.h"
+#include "bake/device/acceleration_structure.h"
+#include "bake/scene/trace_scene.h"
 
 #include <glm/vec2.hpp>
 

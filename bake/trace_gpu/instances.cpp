@@ -1,7 +1,7 @@
 // Finds instances by the mesh index of the file, and their transforms from three vertices; the transform is
 // verified at all vertices.
 
-#include "trace_gpu/instances.h"
+#include "bake/trace_gpu/instances.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_access.hpp>

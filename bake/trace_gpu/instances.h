@@ -2,7 +2,7 @@
 
 // Meshes that a scene contains several times.
 
-#include "prt/scene.h"
+#include "prt/gltf/scene.h"
 
 #include <glm/mat4x3.hpp>
 

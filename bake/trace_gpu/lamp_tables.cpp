@@ -1,9 +1,9 @@
 // Packs lights, emissive triangles, and their textures.
 
-#include "trace_gpu/lamp_tables.h"
+#include "bake/trace_gpu/lamp_tables.h"
 
-#include "scene/punctual.h"
-#include "trace/lamp_rays.h"
+#include "bake/scene/punctual.h"
+#include "bake/trace/lamp_rays.h"
 
 #include <glm/gtc/packing.hpp>
 

@@ -2,9 +2,9 @@
 
 // The lamps of a scene in the layout of shaders/bake_lamps.comp.
 
-#include "prt/trace_scene.h"
-#include "trace/choose_lamps.h"
-#include "trace_gpu/alpha_tables.h"
+#include "bake/scene/trace_scene.h"
+#include "bake/trace/choose_lamps.h"
+#include "bake/trace_gpu/alpha_tables.h"
 
 #include <cstdint>
 #include <span>

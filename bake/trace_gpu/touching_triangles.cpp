@@ -1,8 +1,8 @@
 // Finds faces that meet a receiver, on the CPU, because depth maps cannot show them.
 
-#include "trace_gpu/touching_triangles.h"
+#include "bake/trace_gpu/touching_triangles.h"
 
-#include "prt/support/parallel.h"
+#include "runtime/support/parallel.h"
 
 #include <glm/geometric.hpp>
 

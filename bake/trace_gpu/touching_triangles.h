@@ -3,7 +3,7 @@
 // Triangles that touch receivers: blockers at distance zero, which depth maps of any resolution cannot
 // distinguish from the receiver's own surface.
 
-#include "prt/trace_scene.h"
+#include "bake/scene/trace_scene.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>

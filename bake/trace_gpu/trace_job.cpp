@@ -1,11 +1,11 @@
 // Combines the results of the pieces of a job.
 
-#include "trace_gpu/trace_job.h"
+#include "bake/trace_gpu/trace_job.h"
 
-#include "prt/gpu_failure.h"
-#include "prt/sh.h"
-#include "prt/support/parallel.h"
-#include "scene/opposite_triangles.h"
+#include "bake/device/gpu_failure.h"
+#include "bake/scene/opposite_triangles.h"
+#include "prt/core/sh.h"
+#include "runtime/support/parallel.h"
 
 #include <algorithm>
 #include <array>

@@ -2,11 +2,11 @@
 
 // A job for the tracer on a device, and the combined results of its pieces.
 
-#include "prt/trace_scene.h"
-#include "prt/tracer.h"
-#include "trace/sample_sequence.h"
-#include "trace/vector_sums.h"
-#include "trace_gpu/trace_piece.h"
+#include "bake/scene/trace_scene.h"
+#include "bake/trace/sample_sequence.h"
+#include "bake/trace/tracer.h"
+#include "bake/trace/vector_sums.h"
+#include "bake/trace_gpu/trace_piece.h"
 
 #include <glm/vec2.hpp>
 

@@ -1,15 +1,15 @@
 // Creates the kernels from embedded SPIR-V (shaders/bake_*.comp).
 
-#include "trace_gpu/trace_kernels.h"
+#include "bake/trace_gpu/trace_kernels.h"
 
+#include "bake/trace/vector_sums.h"
 #include "kernels/bake_accumulate.h"
 #include "kernels/bake_blocked.h"
 #include "kernels/bake_blocked_query.h"
 #include "kernels/bake_trace.h"
 #include "kernels/bake_trace_query.h"
-#include "prt/sh.h"
-#include "prt/sh_basis.h"
-#include "trace/vector_sums.h"
+#include "prt/core/sh.h"
+#include "prt/core/sh_basis.h"
 
 namespace prt {
 namespace {

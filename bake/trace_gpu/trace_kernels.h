@@ -2,7 +2,7 @@
 
 // The kernels that trace receivers, for one kind of results, and the tables that they read.
 
-#include "trace_gpu/gpu_scene.h"
+#include "bake/trace_gpu/gpu_scene.h"
 
 #include <glm/vec2.hpp>
 

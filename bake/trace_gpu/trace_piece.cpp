@@ -1,6 +1,6 @@
 // Records the commands of a piece: trace, count, sum, and copy back.
 
-#include "trace_gpu/trace_piece.h"
+#include "bake/trace_gpu/trace_piece.h"
 
 #include <algorithm>
 

@@ -2,8 +2,8 @@
 
 // A piece of the rays of some receivers on the device, with its buffers and its results.
 
-#include "trace_gpu/gpu_scene.h"
-#include "trace_gpu/trace_kernels.h"
+#include "bake/trace_gpu/gpu_scene.h"
+#include "bake/trace_gpu/trace_kernels.h"
 
 #include <functional>
 #include <span>

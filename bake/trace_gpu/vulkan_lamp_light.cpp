@@ -1,14 +1,14 @@
 // Shadow rays to lamps in a compute shader (shaders/bake_lamps.comp): one lamp at a time, many receivers.
 
-#include "trace_gpu/vulkan_lamp_light.h"
+#include "bake/trace_gpu/vulkan_lamp_light.h"
 
+#include "bake/scene/punctual.h"
+#include "bake/trace/sample_sequence.h"
+#include "bake/trace_gpu/lamp_tables.h"
 #include "kernels/bake_lamps.h"
 #include "kernels/bake_lamps_query.h"
-#include "prt/support/parallel.h"
-#include "prt/support/stopwatch.h"
-#include "scene/punctual.h"
-#include "trace/sample_sequence.h"
-#include "trace_gpu/lamp_tables.h"
+#include "runtime/support/parallel.h"
+#include "runtime/support/stopwatch.h"
 
 #include <algorithm>
 #include <bit>

@@ -2,9 +2,9 @@
 
 // Light of lamps on a Vulkan device.
 
-#include "device/gpu_queue.h"
-#include "trace/lamp_light.h"
-#include "trace_gpu/gpu_scene.h"
+#include "bake/device/gpu_queue.h"
+#include "bake/trace/lamp_light.h"
+#include "bake/trace_gpu/gpu_scene.h"
 
 namespace prt {
 

@@ -1,8 +1,8 @@
 // Sums vectors on the device: traced vectors are added there, and only the sums are read back.
 
-#include "prt/sh_basis.h"
-#include "trace_gpu/gpu_sum_row.h"
-#include "trace_gpu/vulkan_tracer.h"
+#include "bake/trace_gpu/gpu_sum_row.h"
+#include "bake/trace_gpu/vulkan_tracer.h"
+#include "prt/core/sh_basis.h"
 
 namespace prt {
 

@@ -1,14 +1,14 @@
 // Divides the rays of receivers into pieces for the device, keeps two pieces active, and computes transfer
 // from their results, with the unshadowed lobe as control variate (docs/math.md, eq. 9).
 
-#include "trace_gpu/vulkan_tracer.h"
+#include "bake/trace_gpu/vulkan_tracer.h"
 
-#include "prt/support/stopwatch.h"
-#include "trace/sample_sequence.h"
-#include "trace_gpu/gpu_gather.h"
-#include "trace_gpu/gpu_receivers.h"
-#include "trace_gpu/gpu_sum_row.h"
-#include "trace_gpu/vulkan_lamp_light.h"
+#include "bake/trace/sample_sequence.h"
+#include "bake/trace_gpu/gpu_gather.h"
+#include "bake/trace_gpu/gpu_receivers.h"
+#include "bake/trace_gpu/gpu_sum_row.h"
+#include "bake/trace_gpu/vulkan_lamp_light.h"
+#include "runtime/support/stopwatch.h"
 
 #include <algorithm>
 #include <numbers>

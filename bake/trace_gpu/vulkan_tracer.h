@@ -2,12 +2,12 @@
 
 // Tracer on a Vulkan device.
 
-#include "device/gpu_queue.h"
-#include "prt/trace_scene.h"
-#include "prt/tracer.h"
-#include "trace_gpu/gpu_scene.h"
-#include "trace_gpu/trace_job.h"
-#include "trace_gpu/trace_kernels.h"
+#include "bake/device/gpu_queue.h"
+#include "bake/scene/trace_scene.h"
+#include "bake/trace/tracer.h"
+#include "bake/trace_gpu/gpu_scene.h"
+#include "bake/trace_gpu/trace_job.h"
+#include "bake/trace_gpu/trace_kernels.h"
 
 #include <array>
 #include <map>

@@ -1,10 +1,10 @@
 // Quantises the boxes of a hierarchy that Embree builds, and writes its nodes in the layout of the shader
 // (Ylitie, Karras and Laine 2017).
 
-#include "trace_gpu/wide_bvh.h"
+#include "bake/trace_gpu/wide_bvh.h"
 
-#include "prt/support/error.h"
-#include "prt/support/parallel.h"
+#include "prt/core/error.h"
+#include "runtime/support/parallel.h"
 
 #include <embree3/rtcore.h>
 #include <glm/common.hpp>

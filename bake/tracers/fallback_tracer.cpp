@@ -1,13 +1,13 @@
 // Continues on the CPU if a GPU fails.
 
-#include "tracers/fallback_tracer.h"
+#include "bake/tracers/fallback_tracer.h"
 
-#include "prt/gpu_failure.h"
-#include "trace/embree_tracer.h"
-#include "trace/gather.h"
-#include "trace/gather_product.h"
-#include "trace/lamp_light.h"
-#include "trace/vector_sums.h"
+#include "bake/device/gpu_failure.h"
+#include "bake/trace/embree_tracer.h"
+#include "bake/trace/gather.h"
+#include "bake/trace/gather_product.h"
+#include "bake/trace/lamp_light.h"
+#include "bake/trace/vector_sums.h"
 
 #include <fmt/core.h>
 

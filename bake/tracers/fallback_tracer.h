@@ -2,8 +2,8 @@
 
 // Tracer with a fallback from the GPU to the CPU.
 
-#include "prt/trace_scene.h"
-#include "prt/tracer.h"
+#include "bake/scene/trace_scene.h"
+#include "bake/trace/tracer.h"
 
 #include <memory>
 

@@ -1,11 +1,11 @@
 // Adds light that passes distant surfaces to visibility.
 
-#include "tracers/falloff_tracer.h"
+#include "bake/tracers/falloff_tracer.h"
 
-#include "prt/sh.h"
-#include "prt/sh_basis.h"
-#include "trace/lamp_light.h"
-#include "trace/sealed.h"
+#include "bake/trace/lamp_light.h"
+#include "bake/trace/sealed.h"
+#include "prt/core/sh.h"
+#include "prt/core/sh_basis.h"
 
 #include <glm/geometric.hpp>
 

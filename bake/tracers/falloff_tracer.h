@@ -2,9 +2,9 @@
 
 // Tracer with a distance fall-off of occlusion.
 
-#include "prt/bake_options.h"
-#include "prt/trace_scene.h"
-#include "prt/tracer.h"
+#include "bake/scene/trace_scene.h"
+#include "bake/trace/tracer.h"
+#include "prt/bake/bake_options.h"
 
 #include <memory>
 

@@ -1,13 +1,13 @@
 // Chooses the tracer.
 
-#include "prt/make_tracer.h"
+#include "bake/tracers/make_tracer.h"
 
-#include "prt/support/error.h"
-#include "raster/gl_rasterizer.h"
-#include "trace/embree_tracer.h"
-#include "trace_gpu/vulkan_tracer.h"
-#include "tracers/fallback_tracer.h"
-#include "tracers/falloff_tracer.h"
+#include "bake/raster/gl_rasterizer.h"
+#include "bake/trace/embree_tracer.h"
+#include "bake/trace_gpu/vulkan_tracer.h"
+#include "bake/tracers/fallback_tracer.h"
+#include "bake/tracers/falloff_tracer.h"
+#include "prt/core/error.h"
 
 namespace prt {
 namespace {

@@ -1,10 +1,10 @@
 // Gathers subsurface light with a tree of the triangles of a body (Jensen and Buhler 2002).
 
-#include "transport/diffusion.h"
+#include "bake/transport/diffusion.h"
 
-#include "prt/sh_basis.h"
-#include "prt/support/parallel.h"
-#include "trace/sparse_rows.h"
+#include "bake/trace/sparse_rows.h"
+#include "prt/core/sh_basis.h"
+#include "runtime/support/parallel.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -3,8 +3,8 @@
 // Subsurface scattering as a hierarchical linear operator on transfer: H. W. Jensen, J. Buhler, "A Rapid
 // Hierarchical Rendering Technique for Translucent Materials", SIGGRAPH 2002. Cost grows as n log n.
 
-#include "prt/receivers.h"
-#include "prt/bake_options.h"
+#include "bake/scene/receivers.h"
+#include "prt/bake/bake_options.h"
 
 #include <glm/vec3.hpp>
 

@@ -1,8 +1,8 @@
 // Solves for all bounces with restarted GMRES (Saad and Schultz 1986), for many columns in parallel.
 
-#include "transport/krylov.h"
+#include "bake/transport/krylov.h"
 
-#include "prt/support/parallel.h"
+#include "runtime/support/parallel.h"
 
 #include <algorithm>
 #include <cmath>

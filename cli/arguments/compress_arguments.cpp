@@ -1,11 +1,11 @@
 // Adds and resolves the options of prt compress.
 
-#include "arguments/compress_arguments.h"
+#include "cli/arguments/compress_arguments.h"
 
-#include "arguments/light_arguments.h"
-#include "arguments/options.h"
-#include "arguments/suboptions.h"
-#include "prt/jumps.h"
+#include "cli/arguments/light_arguments.h"
+#include "cli/arguments/options.h"
+#include "cli/arguments/suboptions.h"
+#include "compress/metric/jumps.h"
 
 #include <fmt/core.h>
 

@@ -2,9 +2,9 @@
 
 // Options of `prt compress`.
 
-#include "pipeline/compress_metric.h"
-#include "program/session.h"
-#include "prt/search.h"
+#include "cli/pipeline/compress_metric.h"
+#include "cli/program/session.h"
+#include "prt/compress/search.h"
 
 #include <CLI/CLI.hpp>
 

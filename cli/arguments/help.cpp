@@ -1,6 +1,6 @@
 // Formats the help of commands.
 
-#include "arguments/help.h"
+#include "cli/arguments/help.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,6 +1,6 @@
 // Suggests the nearest known command or option.
 
-#include "arguments/known_names.h"
+#include "cli/arguments/known_names.h"
 
 #include <algorithm>
 #include <numeric>

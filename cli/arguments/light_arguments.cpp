@@ -1,10 +1,10 @@
 // Adds options for lights.
 
-#include "arguments/light_arguments.h"
+#include "cli/arguments/light_arguments.h"
 
-#include "arguments/options.h"
-#include "arguments/suboptions.h"
-#include "program/session.h"
+#include "cli/arguments/options.h"
+#include "cli/arguments/suboptions.h"
+#include "cli/program/session.h"
 
 #include <fmt/core.h>
 

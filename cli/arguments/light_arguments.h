@@ -2,10 +2,10 @@
 
 // Options for lights: environments, suns and lamps.
 
-#include "pipeline/compress_metric.h"
-#include "pipeline/lamp_strengths.h"
-#include "pipeline/loaded_light.h"
-#include "program/session.h"
+#include "cli/pipeline/compress_metric.h"
+#include "cli/pipeline/lamp_strengths.h"
+#include "cli/pipeline/loaded_light.h"
+#include "cli/program/session.h"
 
 #include <CLI/CLI.hpp>
 

@@ -1,11 +1,11 @@
 // Adds the options that several commands share.
 
-#include "arguments/options.h"
+#include "cli/arguments/options.h"
 
-#include "arguments/suboptions.h"
-#include "pipeline/model.h"
-#include "program/outputs.h"
-#include "program/session.h"
+#include "cli/arguments/suboptions.h"
+#include "cli/pipeline/model.h"
+#include "cli/program/outputs.h"
+#include "cli/program/session.h"
 
 #include <fmt/core.h>
 

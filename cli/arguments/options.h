@@ -2,10 +2,10 @@
 
 // Options shared by several commands, and storage for the options of a command.
 
-#include "pipeline/model.h"
-#include "pipeline/reading_options.h"
-#include "program/publish.h"
-#include "prt/bake.h"
+#include "cli/pipeline/model.h"
+#include "cli/pipeline/reading_options.h"
+#include "cli/program/publish.h"
+#include "prt/bake/bake.h"
 
 #include <CLI/CLI.hpp>
 

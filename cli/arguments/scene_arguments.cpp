@@ -1,11 +1,11 @@
 // Adds options for the geometry of a scene.
 
-#include "arguments/scene_arguments.h"
+#include "cli/arguments/scene_arguments.h"
 
-#include "arguments/light_arguments.h"
-#include "arguments/options.h"
-#include "arguments/suboptions.h"
-#include "program/session.h"
+#include "cli/arguments/light_arguments.h"
+#include "cli/arguments/options.h"
+#include "cli/arguments/suboptions.h"
+#include "cli/program/session.h"
 
 namespace prt::cli {
 namespace {

@@ -2,10 +2,10 @@
 
 // Options for the geometry of a scene: materials without shadow, back sides, levels of detail, instances.
 
-#include "pipeline/back_sides.h"
-#include "pipeline/instance_sharing.h"
-#include "pipeline/model_levels.h"
-#include "program/session.h"
+#include "cli/pipeline/back_sides.h"
+#include "cli/pipeline/instance_sharing.h"
+#include "cli/pipeline/model_levels.h"
+#include "cli/program/session.h"
 
 #include <CLI/CLI.hpp>
 

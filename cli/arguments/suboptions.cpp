@@ -1,8 +1,8 @@
 // Parses options with settings.
 
-#include "arguments/suboptions.h"
+#include "cli/arguments/suboptions.h"
 
-#include "arguments/options.h"
+#include "cli/arguments/options.h"
 
 #include <fmt/core.h>
 

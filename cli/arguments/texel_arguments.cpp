@@ -1,12 +1,12 @@
 // Parses texture options and prepares texture coordinates.
 
-#include "arguments/texel_arguments.h"
+#include "cli/arguments/texel_arguments.h"
 
-#include "arguments/options.h"
-#include "arguments/suboptions.h"
-#include "program/session.h"
-#include "prt/support/error.h"
-#include "prt/unwrap.h"
+#include "bake/products/lightmaps/unwrap.h"
+#include "cli/arguments/options.h"
+#include "cli/arguments/suboptions.h"
+#include "cli/program/session.h"
+#include "prt/core/error.h"
 
 #include <fmt/core.h>
 #include <glm/geometric.hpp>

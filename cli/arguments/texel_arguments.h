@@ -2,11 +2,11 @@
 
 // Options of commands that bake into textures.
 
-#include "pipeline/model.h"
-#include "program/session.h"
-#include "prt/ambient_occlusion.h"
-#include "prt/texels.h"
-#include "report/report.h"
+#include "cli/pipeline/model.h"
+#include "cli/program/session.h"
+#include "cli/report/report.h"
+#include "prt/bake/ambient_occlusion.h"
+#include "prt/bake/texels.h"
 
 #include <CLI/CLI.hpp>
 

@@ -1,8 +1,8 @@
 // Parses camera and exposure options.
 
-#include "arguments/view_arguments.h"
+#include "cli/arguments/view_arguments.h"
 
-#include "arguments/options.h"
+#include "cli/arguments/options.h"
 
 #include <glm/trigonometric.hpp>
 

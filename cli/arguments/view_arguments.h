@@ -2,8 +2,8 @@
 
 // Options for the camera and exposure of pictures.
 
-#include "prt/camera.h"
-#include "prt/scene.h"
+#include "prt/gltf/scene.h"
+#include "prt/render/camera.h"
 
 #include <CLI/CLI.hpp>
 #include <glm/vec3.hpp>

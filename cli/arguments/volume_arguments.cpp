@@ -1,10 +1,10 @@
 // Parses the options of volumes.
 
-#include "arguments/volume_arguments.h"
+#include "cli/arguments/volume_arguments.h"
 
-#include "arguments/options.h"
-#include "arguments/suboptions.h"
-#include "prt/support/error.h"
+#include "cli/arguments/options.h"
+#include "cli/arguments/suboptions.h"
+#include "prt/core/error.h"
 
 #include <fmt/core.h>
 

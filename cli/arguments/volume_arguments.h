@@ -2,9 +2,9 @@
 
 // Options of `bake` that request a volume in addition to transfer of surfaces.
 
-#include "pipeline/model.h"
-#include "program/session.h"
-#include "prt/volume_bake.h"
+#include "cli/pipeline/model.h"
+#include "cli/program/session.h"
+#include "prt/bake/volume_bake.h"
 
 #include <CLI/CLI.hpp>
 

@@ -1,19 +1,19 @@
 // prt ao: bakes ambient occlusion into vertices or textures.
 
-#include "commands/commands.h"
+#include "cli/commands/commands.h"
 
-#include "arguments/options.h"
-#include "arguments/scene_arguments.h"
-#include "arguments/texel_arguments.h"
-#include "pipeline/back_sides.h"
-#include "pipeline/no_shadow.h"
-#include "pipeline/occluders.h"
-#include "program/outputs.h"
-#include "program/session.h"
-#include "prt/encode_glb.h"
-#include "prt/image_file.h"
-#include "prt/ambient_occlusion.h"
-#include "prt/support/stopwatch.h"
+#include "cli/arguments/options.h"
+#include "cli/arguments/scene_arguments.h"
+#include "cli/arguments/texel_arguments.h"
+#include "cli/pipeline/back_sides.h"
+#include "cli/pipeline/no_shadow.h"
+#include "cli/pipeline/occluders.h"
+#include "cli/program/outputs.h"
+#include "cli/program/session.h"
+#include "prt/bake/ambient_occlusion.h"
+#include "prt/image/image_file.h"
+#include "runtime/scene/gltf/encode_glb.h"
+#include "runtime/support/stopwatch.h"
 
 #include <fmt/core.h>
 #include <glm/geometric.hpp>

@@ -1,14 +1,14 @@
 // prt bench: measures speed and error of bakes.
 
-#include "commands/commands.h"
+#include "cli/commands/commands.h"
 
-#include "arguments/options.h"
-#include "arguments/suboptions.h"
-#include "pipeline/model.h"
-#include "program/outputs.h"
-#include "program/session.h"
-#include "prt/gpu_devices.h"
-#include "report/bench_report.h"
+#include "bake/device/gpu_devices.h"
+#include "cli/arguments/options.h"
+#include "cli/arguments/suboptions.h"
+#include "cli/pipeline/model.h"
+#include "cli/program/outputs.h"
+#include "cli/program/session.h"
+#include "cli/report/bench_report.h"
 
 #include <fmt/core.h>
 

@@ -1,22 +1,22 @@
 // prt evaluate: measures errors of a compressed file or of a bake.
 
-#include "commands/commands.h"
+#include "cli/commands/commands.h"
 
-#include "arguments/light_arguments.h"
-#include "arguments/options.h"
-#include "arguments/scene_arguments.h"
-#include "pipeline/comparison.h"
-#include "pipeline/evaluation_lights.h"
-#include "pipeline/level_errors.h"
-#include "pipeline/measure_budget.h"
-#include "pipeline/no_shadow.h"
-#include "pipeline/volume_errors.h"
-#include "program/outputs.h"
-#include "program/session.h"
-#include "prt/error_measures.h"
-#include "prt/support/error.h"
-#include "report/of_texels.h"
-#include "report/sweep_report.h"
+#include "cli/arguments/light_arguments.h"
+#include "cli/arguments/options.h"
+#include "cli/arguments/scene_arguments.h"
+#include "cli/pipeline/comparison.h"
+#include "cli/pipeline/evaluation_lights.h"
+#include "cli/pipeline/level_errors.h"
+#include "cli/pipeline/measure_budget.h"
+#include "cli/pipeline/no_shadow.h"
+#include "cli/pipeline/volume_errors.h"
+#include "cli/program/outputs.h"
+#include "cli/program/session.h"
+#include "cli/report/of_texels.h"
+#include "cli/report/sweep_report.h"
+#include "prt/core/error.h"
+#include "prt/core/error_measures.h"
 
 #include <filesystem>
 #include <set>

@@ -1,18 +1,18 @@
 // prt info: prints the transfer in a file and its size.
 
-#include "commands/commands.h"
+#include "cli/commands/commands.h"
 
-#include "arguments/options.h"
-#include "arguments/scene_arguments.h"
-#include "pipeline/instance_report.h"
-#include "pipeline/scene_check.h"
-#include "program/outputs.h"
-#include "program/session.h"
-#include "prt/levels.h"
-#include "report/lightmap_report.h"
-#include "report/of_texels.h"
-#include "report/transfer_words.h"
-#include "report/volume_report.h"
+#include "cli/arguments/options.h"
+#include "cli/arguments/scene_arguments.h"
+#include "cli/pipeline/instance_report.h"
+#include "cli/pipeline/scene_check.h"
+#include "cli/program/outputs.h"
+#include "cli/program/session.h"
+#include "cli/report/lightmap_report.h"
+#include "cli/report/of_texels.h"
+#include "cli/report/transfer_words.h"
+#include "cli/report/volume_report.h"
+#include "prt/gltf/levels.h"
 
 #include <fmt/ranges.h>
 

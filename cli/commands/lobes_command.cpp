@@ -1,18 +1,18 @@
 // prt lobes: bakes lobes for skinned meshes.
 
-#include "commands/commands.h"
+#include "cli/commands/commands.h"
 
-#include "arguments/options.h"
-#include "arguments/suboptions.h"
-#include "pipeline/lobe_errors.h"
-#include "program/outputs.h"
-#include "program/session.h"
-#include "prt/encode_glb.h"
-#include "prt/light_metric.h"
-#include "prt/lobe_fit.h"
-#include "prt/instances_gltf.h"
-#include "prt/support/error.h"
-#include "prt/support/stopwatch.h"
+#include "cli/arguments/options.h"
+#include "cli/arguments/suboptions.h"
+#include "cli/pipeline/lobe_errors.h"
+#include "cli/program/outputs.h"
+#include "cli/program/session.h"
+#include "prt/compress/light_metric.h"
+#include "prt/core/error.h"
+#include "prt/fit/lobe_fit.h"
+#include "prt/gltf/transfer_gltf.h"
+#include "runtime/scene/gltf/encode_glb.h"
+#include "runtime/support/stopwatch.h"
 
 #include <fmt/core.h>
 

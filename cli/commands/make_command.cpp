@@ -1,16 +1,16 @@
 // prt make: bakes and compresses a scene in one step.
 
-#include "commands/commands.h"
+#include "cli/commands/commands.h"
 
-#include "arguments/light_arguments.h"
-#include "arguments/options.h"
-#include "arguments/scene_arguments.h"
-#include "pipeline/lamp_strengths.h"
-#include "pipeline/make_model.h"
-#include "pipeline/no_shadow.h"
-#include "pipeline/shell_word.h"
-#include "program/outputs.h"
-#include "program/session.h"
+#include "cli/arguments/light_arguments.h"
+#include "cli/arguments/options.h"
+#include "cli/arguments/scene_arguments.h"
+#include "cli/pipeline/lamp_strengths.h"
+#include "cli/pipeline/make_model.h"
+#include "cli/pipeline/no_shadow.h"
+#include "cli/pipeline/shell_word.h"
+#include "cli/program/outputs.h"
+#include "cli/program/session.h"
 
 namespace prt::cli {
 namespace {

@@ -1,16 +1,16 @@
 // prt project: converts an environment map to a light file.
 
-#include "commands/commands.h"
+#include "cli/commands/commands.h"
 
-#include "arguments/light_arguments.h"
-#include "arguments/options.h"
-#include "pipeline/loaded_light.h"
-#include "pipeline/model.h"
-#include "program/outputs.h"
-#include "program/session.h"
-#include "prt/light_file.h"
-#include "prt/support/error.h"
-#include "prt/support/stopwatch.h"
+#include "cli/arguments/light_arguments.h"
+#include "cli/arguments/options.h"
+#include "cli/pipeline/loaded_light.h"
+#include "cli/pipeline/model.h"
+#include "cli/program/outputs.h"
+#include "cli/program/session.h"
+#include "prt/core/error.h"
+#include "prt/gltf/light_file.h"
+#include "runtime/support/stopwatch.h"
 
 #include <fmt/core.h>
 #include <glm/trigonometric.hpp>

@@ -1,21 +1,21 @@
 // prt relight: writes vertex colors under one light.
 
-#include "commands/commands.h"
+#include "cli/commands/commands.h"
 
-#include "arguments/light_arguments.h"
-#include "arguments/options.h"
-#include "arguments/view_arguments.h"
-#include "pipeline/lamp_strengths.h"
-#include "pipeline/loaded_light.h"
-#include "pipeline/solid_materials.h"
-#include "program/outputs.h"
-#include "program/session.h"
-#include "prt/encode_glb.h"
-#include "prt/fallback.h"
-#include "prt/light_meter.h"
-#include "prt/sun_radiance.h"
-#include "prt/support/error.h"
-#include "prt/support/stopwatch.h"
+#include "bake/pipeline/sun_radiance.h"
+#include "bake/reference/light_meter.h"
+#include "cli/arguments/light_arguments.h"
+#include "cli/arguments/options.h"
+#include "cli/arguments/view_arguments.h"
+#include "cli/pipeline/lamp_strengths.h"
+#include "cli/pipeline/loaded_light.h"
+#include "cli/pipeline/solid_materials.h"
+#include "cli/program/outputs.h"
+#include "cli/program/session.h"
+#include "prt/core/error.h"
+#include "runtime/scene/gltf/encode_glb.h"
+#include "runtime/scene/gltf/vertex_fallback.h"
+#include "runtime/support/stopwatch.h"
 
 #include <fmt/core.h>
 #include <glm/geometric.hpp>

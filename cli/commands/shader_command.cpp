@@ -1,15 +1,15 @@
 // prt shader: writes shaders for a compressed file.
 
-#include "commands/commands.h"
+#include "cli/commands/commands.h"
 
-#include "arguments/options.h"
-#include "program/outputs.h"
-#include "program/session.h"
-#include "program/terminal.h"
-#include "prt/shader_source.h"
-#include "prt/occlusion_volume.h"
-#include "prt/support/error.h"
-#include "prt/support/printable.h"
+#include "cli/arguments/options.h"
+#include "cli/program/outputs.h"
+#include "cli/program/session.h"
+#include "cli/program/terminal.h"
+#include "prt/core/error.h"
+#include "prt/core/occlusion_volume.h"
+#include "prt/shader/shader_source.h"
+#include "runtime/support/printable.h"
 
 #include <fmt/core.h>
 #include <glm/vec4.hpp>

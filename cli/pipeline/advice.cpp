@@ -1,10 +1,10 @@
 // Tries options against the largest causes of error.
 
-#include "pipeline/advice.h"
+#include "cli/pipeline/advice.h"
 
-#include "prt/compress.h"
-#include "prt/make_tracer.h"
-#include "prt/trace_receivers.h"
+#include "bake/trace/trace_receivers.h"
+#include "bake/tracers/make_tracer.h"
+#include "prt/compress/compress.h"
 
 #include <fmt/core.h>
 

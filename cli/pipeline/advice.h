@@ -2,9 +2,9 @@
 
 // Advice on which option to change first. Its effect is measured, on a part of the model if that suffices.
 
-#include "pipeline/budget.h"
-#include "pipeline/model.h"
-#include "prt/bake.h"
+#include "cli/pipeline/budget.h"
+#include "cli/pipeline/model.h"
+#include "prt/bake/bake.h"
 
 #include <optional>
 #include <string>

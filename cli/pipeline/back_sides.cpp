@@ -1,12 +1,12 @@
 // Gives both sides of double-sided surfaces separate vertices.
 
-#include "pipeline/back_sides.h"
+#include "cli/pipeline/back_sides.h"
 
-#include "pipeline/no_shadow.h"
-#include "prt/levels.h"
-#include "prt/separate_sides.h"
-#include "prt/sides.h"
-#include "prt/support/counted.h"
+#include "bake/refine/sides.h"
+#include "cli/pipeline/no_shadow.h"
+#include "prt/gltf/levels.h"
+#include "runtime/scene/gltf/separate_sides.h"
+#include "runtime/support/counted.h"
 
 #include <fmt/core.h>
 

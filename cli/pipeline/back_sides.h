@@ -2,9 +2,9 @@
 
 // Vertices for both sides of double-sided surfaces.
 
-#include "pipeline/model.h"
-#include "prt/bake.h"
-#include "prt/gltf.h"
+#include "cli/pipeline/model.h"
+#include "prt/bake/bake.h"
+#include "prt/gltf/gltf.h"
 
 #include <string>
 #include <vector>

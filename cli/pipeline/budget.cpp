@@ -1,11 +1,11 @@
 // Measures an error budget under each light.
 
-#include "pipeline/budget.h"
+#include "cli/pipeline/budget.h"
 
-#include "prt/bake.h"
-#include "prt/lightmap_file.h"
-#include "prt/lightmap_lookup.h"
-#include "prt/support/error.h"
+#include "prt/bake/bake.h"
+#include "prt/core/error.h"
+#include "prt/render/lightmap_file.h"
+#include "runtime/render/lightmap_lookup.h"
 
 #include <utility>
 

@@ -2,11 +2,11 @@
 
 // Sources of the error of a picture, under each of several lights.
 
-#include "pipeline/budget_lights.h"
-#include "pipeline/model.h"
-#include "prt/error_budget.h"
-#include "prt/support/progress.h"
-#include "prt/texture.h"
+#include "bake/studies/error_budget.h"
+#include "cli/pipeline/budget_lights.h"
+#include "cli/pipeline/model.h"
+#include "prt/core/progress.h"
+#include "prt/render/texture.h"
 
 #include <vector>
 

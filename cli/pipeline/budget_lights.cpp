@@ -1,10 +1,10 @@
 // Loads lights for an error budget and splits off their suns.
 
-#include "pipeline/budget_lights.h"
+#include "cli/pipeline/budget_lights.h"
 
-#include "pipeline/evaluation_lights.h"
-#include "prt/light_file.h"
-#include "prt/support/tangent_frame.h"
+#include "cli/pipeline/evaluation_lights.h"
+#include "prt/gltf/light_file.h"
+#include "runtime/support/tangent_frame.h"
 
 #include <glm/common.hpp>
 #include <glm/trigonometric.hpp>

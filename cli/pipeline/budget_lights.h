@@ -2,8 +2,8 @@
 
 // Lights for an error budget: as measured, and as coefficients.
 
-#include "pipeline/loaded_light.h"
-#include "prt/surface_radiance.h"
+#include "bake/reference/surface_radiance.h"
+#include "cli/pipeline/loaded_light.h"
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 // Writes error budgets as tables, bars and sentences.
 
-#include "pipeline/budget_report.h"
+#include "cli/pipeline/budget_report.h"
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pipeline/advice.h"
-#include "report/report.h"
+#include "cli/pipeline/advice.h"
+#include "cli/report/report.h"
 
 #include <string>
 #include <vector>

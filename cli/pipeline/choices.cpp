@@ -1,9 +1,9 @@
 // Chooses order, bounces, rays and the requested compression error.
 
-#include "pipeline/choices.h"
+#include "cli/pipeline/choices.h"
 
-#include "prt/bake.h"
-#include "prt/sh_basis.h"
+#include "prt/bake/bake.h"
+#include "prt/core/sh_basis.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 // Rules by which `prt make` divides the allowed error among its causes. All errors are squared, relative to
 // the squared radiance of the surface.
 
-#include "prt/error_budget.h"
+#include "bake/studies/error_budget.h"
 
 #include <functional>
 

@@ -1,6 +1,6 @@
 // Sums area and error of each cluster.
 
-#include "pipeline/cluster_shares.h"
+#include "cli/pipeline/cluster_shares.h"
 
 #include <glm/geometric.hpp>
 

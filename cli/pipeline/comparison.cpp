@@ -1,22 +1,22 @@
 // Measures the errors of a file against its bake under several lights.
 
-#include "pipeline/comparison.h"
+#include "cli/pipeline/comparison.h"
 
-#include "pipeline/cluster_shares.h"
-#include "pipeline/evaluation_lights.h"
-#include "pipeline/instance_errors.h"
-#include "pipeline/solid_materials.h"
-#include "prt/dering.h"
-#include "prt/error_measures.h"
-#include "prt/lightmap_file.h"
-#include "prt/mesh_edges.h"
-#include "prt/ray_renderer.h"
-#include "prt/receiver_colors.h"
-#include "prt/sun_radiance.h"
-#include "prt/support/error.h"
-#include "prt/support/printable.h"
-#include "prt/tone_map.h"
-#include "report/verdict.h"
+#include "bake/pipeline/sun_radiance.h"
+#include "bake/reference/ray_renderer.h"
+#include "cli/pipeline/cluster_shares.h"
+#include "cli/pipeline/evaluation_lights.h"
+#include "cli/pipeline/instance_errors.h"
+#include "cli/pipeline/solid_materials.h"
+#include "cli/report/verdict.h"
+#include "compress/study/receiver_colors.h"
+#include "prt/core/dering.h"
+#include "prt/core/error.h"
+#include "prt/core/error_measures.h"
+#include "prt/render/lightmap_file.h"
+#include "prt/render/tone_map.h"
+#include "runtime/scene/mesh_edges.h"
+#include "runtime/support/printable.h"
 
 #include <fmt/core.h>
 #include <glm/geometric.hpp>

@@ -2,9 +2,9 @@
 
 // Compares a compressed file, or another bake of the same scene, with its bake.
 
-#include "pipeline/loaded_light.h"
-#include "pipeline/reading_options.h"
-#include "report/report.h"
+#include "cli/pipeline/loaded_light.h"
+#include "cli/pipeline/reading_options.h"
+#include "cli/report/report.h"
 
 #include <vector>
 

@@ -1,9 +1,9 @@
 // Chooses the metric of compression: that of a light family, or of given lights.
 
-#include "pipeline/compress_metric.h"
+#include "cli/pipeline/compress_metric.h"
 
-#include "pipeline/loaded_light.h"
-#include "prt/support/counted.h"
+#include "cli/pipeline/loaded_light.h"
+#include "runtime/support/counted.h"
 
 #include <fmt/core.h>
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "pipeline/model.h"
-#include "pipeline/sky_errors.h"
-#include "prt/light_metric.h"
-#include "prt/search.h"
+#include "cli/pipeline/model.h"
+#include "cli/pipeline/sky_errors.h"
+#include "prt/compress/light_metric.h"
+#include "prt/compress/search.h"
 
 namespace prt::pipeline {
 

@@ -1,6 +1,6 @@
 // Returns the standard lights of an evaluation.
 
-#include "pipeline/evaluation_lights.h"
+#include "cli/pipeline/evaluation_lights.h"
 
 #include <fmt/core.h>
 #include <glm/geometric.hpp>

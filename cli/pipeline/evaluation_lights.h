@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pipeline/loaded_light.h"
+#include "cli/pipeline/loaded_light.h"
 
 #include <vector>
 

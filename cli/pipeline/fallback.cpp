@@ -1,11 +1,11 @@
 // Adds vertex colors under one light to a compressed file.
 
-#include "pipeline/fallback.h"
+#include "cli/pipeline/fallback.h"
 
-#include "pipeline/loaded_light.h"
-#include "prt/encode_glb.h"
-#include "prt/fallback.h"
-#include "prt/levels.h"
+#include "cli/pipeline/loaded_light.h"
+#include "prt/gltf/levels.h"
+#include "runtime/scene/gltf/encode_glb.h"
+#include "runtime/scene/gltf/vertex_fallback.h"
 
 #include <fmt/core.h>
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "pipeline/model.h"
-#include "prt/gltf.h"
-#include "report/report.h"
+#include "cli/pipeline/model.h"
+#include "cli/report/report.h"
+#include "prt/gltf/gltf.h"
 
 #include <cstddef>
 #include <optional>

@@ -2,7 +2,7 @@
 
 // Connections of a pipeline to its program: progress, notices and output files.
 
-#include "prt/support/progress.h"
+#include "prt/core/progress.h"
 
 #include <cstddef>
 #include <cstdint>

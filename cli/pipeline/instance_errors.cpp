@@ -1,8 +1,8 @@
 // Computes the errors of instances and their percentiles.
 
-#include "pipeline/instance_errors.h"
+#include "cli/pipeline/instance_errors.h"
 
-#include "pipeline/instance_report.h"
+#include "cli/pipeline/instance_report.h"
 
 #include <glm/geometric.hpp>
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "pipeline/loaded_light.h"
-#include "pipeline/model.h"
-#include "report/report.h"
+#include "cli/pipeline/loaded_light.h"
+#include "cli/pipeline/model.h"
+#include "cli/report/report.h"
 
 #include <glm/vec3.hpp>
 

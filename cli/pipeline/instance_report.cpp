@@ -1,8 +1,8 @@
 // Reports a bake whose instances share transfer.
 
-#include "pipeline/instance_report.h"
+#include "cli/pipeline/instance_report.h"
 
-#include "report/transfer_words.h"
+#include "cli/report/transfer_words.h"
 
 #include <fmt/core.h>
 

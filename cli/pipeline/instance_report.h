@@ -1,8 +1,8 @@
 #pragma once
 
-#include "pipeline/instance_sharing.h"
-#include "prt/instances.h"
-#include "report/report.h"
+#include "cli/pipeline/instance_sharing.h"
+#include "cli/report/report.h"
+#include "prt/core/instances.h"
 
 #include <cstdint>
 #include <string>

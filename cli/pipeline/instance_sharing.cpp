@@ -1,10 +1,10 @@
 // Selects meshes to share and bakes them.
 
-#include "pipeline/instance_sharing.h"
+#include "cli/pipeline/instance_sharing.h"
 
-#include "pipeline/no_shadow.h"
-#include "prt/receivers.h"
-#include "prt/support/error.h"
+#include "bake/scene/receivers.h"
+#include "cli/pipeline/no_shadow.h"
+#include "prt/core/error.h"
 
 #include <fmt/core.h>
 

@@ -2,8 +2,8 @@
 
 // Selects instanced meshes that share transfer, and bakes them.
 
-#include "pipeline/loaded_light.h"
-#include "prt/instance_bake.h"
+#include "cli/pipeline/loaded_light.h"
+#include "prt/bake/instance_bake.h"
 
 #include <optional>
 #include <string>

@@ -1,14 +1,14 @@
 // Reads lamp strengths, and detects lamps that are far brighter than the sky.
 
-#include "pipeline/lamp_strengths.h"
+#include "cli/pipeline/lamp_strengths.h"
 
-#include "pipeline/model.h"
-#include "prt/light.h"
-#include "prt/json_file.h"
-#include "prt/sh.h"
-#include "prt/sh_basis.h"
-#include "prt/support/error.h"
-#include "prt/support/printable.h"
+#include "cli/pipeline/model.h"
+#include "prt/core/error.h"
+#include "prt/core/light.h"
+#include "prt/core/sh.h"
+#include "prt/core/sh_basis.h"
+#include "runtime/scene/json_file.h"
+#include "runtime/support/printable.h"
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>

@@ -2,8 +2,8 @@
 
 // Strengths of the lamps of a model.
 
-#include "prt/scene.h"
-#include "prt/transfer.h"
+#include "prt/core/transfer.h"
+#include "prt/gltf/scene.h"
 
 #include <glm/vec3.hpp>
 

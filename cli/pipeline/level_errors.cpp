@@ -1,9 +1,9 @@
 // Compares coarser levels with level 0 at points of their surfaces.
 
-#include "pipeline/level_errors.h"
+#include "cli/pipeline/level_errors.h"
 
-#include "prt/level_bake.h"
-#include "prt/reorder.h"
+#include "prt/bake/level_bake.h"
+#include "runtime/scene/gltf/reorder.h"
 
 #include <algorithm>
 #include <map>

@@ -2,10 +2,10 @@
 
 // Measures errors of the coarser levels of a shipped file against level 0 of its bake.
 
-#include "pipeline/loaded_light.h"
-#include "pipeline/model.h"
-#include "pipeline/reading_options.h"
-#include "report/report.h"
+#include "cli/pipeline/loaded_light.h"
+#include "cli/pipeline/model.h"
+#include "cli/pipeline/reading_options.h"
+#include "cli/report/report.h"
 
 #include <vector>
 

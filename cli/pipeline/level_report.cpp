@@ -1,6 +1,6 @@
 // Reports the bake and the errors of coarser levels.
 
-#include "pipeline/level_report.h"
+#include "cli/pipeline/level_report.h"
 
 #include <fmt/core.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pipeline/model_levels.h"
-#include "report/report.h"
+#include "cli/pipeline/model_levels.h"
+#include "cli/report/report.h"
 
 namespace prt::pipeline {
 

@@ -1,8 +1,8 @@
 // Loads lights and separates their suns.
 
-#include "pipeline/loaded_light.h"
+#include "cli/pipeline/loaded_light.h"
 
-#include "prt/light_file.h"
+#include "prt/gltf/light_file.h"
 
 #include <fmt/core.h>
 #include <glm/gtc/matrix_transform.hpp>

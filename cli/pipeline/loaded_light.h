@@ -2,9 +2,9 @@
 
 // Light of a file, with separate suns if requested.
 
-#include "pipeline/model.h"
-#include "prt/suns.h"
-#include "prt/transfer_layout.h"
+#include "cli/pipeline/model.h"
+#include "prt/core/transfer_layout.h"
+#include "prt/fit/suns.h"
 
 #include <optional>
 

@@ -1,12 +1,12 @@
 // Bakes frames of an animation and compares lobes with them.
 
-#include "pipeline/lobe_errors.h"
+#include "cli/pipeline/lobe_errors.h"
 
-#include "pipeline/posed_lobes.h"
-#include "pipeline/sky_errors.h"
-#include "prt/error_measures.h"
-#include "prt/sh.h"
-#include "prt/standard_skies.h"
+#include "cli/pipeline/posed_lobes.h"
+#include "cli/pipeline/sky_errors.h"
+#include "compress/metric/standard_skies.h"
+#include "prt/core/error_measures.h"
+#include "prt/core/sh.h"
 
 #include <fmt/core.h>
 

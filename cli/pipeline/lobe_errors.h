@@ -3,9 +3,9 @@
 // Measures errors of lobes in frames of an animation, and of other kinds of transfer that rotate with the
 // skin.
 
-#include "prt/lobes.h"
-#include "prt/pose_bake.h"
-#include "report/report.h"
+#include "cli/report/report.h"
+#include "prt/bake/pose_bake.h"
+#include "prt/core/lobes.h"
 
 #include <span>
 

@@ -1,22 +1,22 @@
 // Measures, bakes, refines and compresses a scene under constraints.
 
-#include "pipeline/make_model.h"
+#include "cli/pipeline/make_model.h"
 
-#include "pipeline/budget_report.h"
-#include "pipeline/choices.h"
-#include "pipeline/compress_metric.h"
-#include "pipeline/lamp_strengths.h"
-#include "pipeline/measure_budget.h"
-#include "pipeline/no_shadow.h"
-#include "pipeline/shell_word.h"
-#include "prt/encode_glb.h"
-#include "prt/jumps.h"
-#include "prt/levels.h"
-#include "prt/refine.h"
-#include "prt/search.h"
-#include "prt/support/counted.h"
-#include "prt/support/error.h"
-#include "prt/support/stopwatch.h"
+#include "cli/pipeline/budget_report.h"
+#include "cli/pipeline/choices.h"
+#include "cli/pipeline/compress_metric.h"
+#include "cli/pipeline/lamp_strengths.h"
+#include "cli/pipeline/measure_budget.h"
+#include "cli/pipeline/no_shadow.h"
+#include "cli/pipeline/shell_word.h"
+#include "compress/metric/jumps.h"
+#include "prt/bake/refine.h"
+#include "prt/compress/search.h"
+#include "prt/core/error.h"
+#include "prt/gltf/levels.h"
+#include "runtime/scene/gltf/encode_glb.h"
+#include "runtime/support/counted.h"
+#include "runtime/support/stopwatch.h"
 
 #include <fmt/core.h>
 

@@ -2,12 +2,12 @@
 
 // Bakes and compresses a scene in one step, and spends bytes and time on the largest errors.
 
-#include "pipeline/back_sides.h"
-#include "pipeline/budget.h"
-#include "pipeline/host.h"
-#include "pipeline/model.h"
-#include "pipeline/reading_options.h"
-#include "report/report.h"
+#include "cli/pipeline/back_sides.h"
+#include "cli/pipeline/budget.h"
+#include "cli/pipeline/host.h"
+#include "cli/pipeline/model.h"
+#include "cli/pipeline/reading_options.h"
+#include "cli/report/report.h"
 
 #include <optional>
 #include <string>

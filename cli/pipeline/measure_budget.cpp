@@ -1,15 +1,15 @@
 // Measures the error budget of a bake and its shipped file.
 
-#include "pipeline/measure_budget.h"
+#include "cli/pipeline/measure_budget.h"
 
-#include "pipeline/advice.h"
-#include "pipeline/budget_report.h"
-#include "pipeline/no_shadow.h"
-#include "pipeline/solid_materials.h"
-#include "prt/bake.h"
-#include "prt/lightmap_file.h"
-#include "prt/repeated_bake.h"
-#include "prt/support/error.h"
+#include "bake/studies/repeated_bake.h"
+#include "cli/pipeline/advice.h"
+#include "cli/pipeline/budget_report.h"
+#include "cli/pipeline/no_shadow.h"
+#include "cli/pipeline/solid_materials.h"
+#include "prt/bake/bake.h"
+#include "prt/core/error.h"
+#include "prt/render/lightmap_file.h"
 
 #include <fmt/core.h>
 

@@ -2,11 +2,11 @@
 
 // The budget of errors of files.
 
-#include "pipeline/budget_lights.h"
-#include "pipeline/host.h"
-#include "pipeline/model.h"
-#include "pipeline/reading_options.h"
-#include "report/report.h"
+#include "cli/pipeline/budget_lights.h"
+#include "cli/pipeline/host.h"
+#include "cli/pipeline/model.h"
+#include "cli/pipeline/reading_options.h"
+#include "cli/report/report.h"
 
 namespace prt::pipeline {
 

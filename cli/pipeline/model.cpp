@@ -1,12 +1,12 @@
 // Opens models and environment maps.
 
-#include "pipeline/model.h"
+#include "cli/pipeline/model.h"
 
-#include "prt/levels.h"
-#include "prt/light_file.h"
-#include "prt/lightmap_file.h"
-#include "prt/reorder.h"
-#include "prt/support/counted.h"
+#include "prt/gltf/levels.h"
+#include "prt/gltf/light_file.h"
+#include "prt/render/lightmap_file.h"
+#include "runtime/scene/gltf/reorder.h"
+#include "runtime/support/counted.h"
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>

@@ -2,14 +2,14 @@
 
 // Opens models and environment maps.
 
-#include "pipeline/host.h"
-#include "pipeline/reading_options.h"
-#include "prt/gltf.h"
-#include "prt/image_file.h"
-#include "prt/instances_gltf.h"
-#include "prt/light.h"
-#include "prt/lightmap.h"
-#include "prt/support/error.h"
+#include "cli/pipeline/host.h"
+#include "cli/pipeline/reading_options.h"
+#include "prt/core/error.h"
+#include "prt/core/light.h"
+#include "prt/core/lightmap.h"
+#include "prt/gltf/gltf.h"
+#include "prt/gltf/transfer_gltf.h"
+#include "prt/image/image_file.h"
 
 #include <optional>
 #include <string>

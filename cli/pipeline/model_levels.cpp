@@ -1,6 +1,6 @@
 // Finds and bakes coarser levels of detail.
 
-#include "pipeline/model_levels.h"
+#include "cli/pipeline/model_levels.h"
 
 #include <string>
 

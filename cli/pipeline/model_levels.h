@@ -2,8 +2,8 @@
 
 // Bakes coarser levels of detail.
 
-#include "pipeline/host.h"
-#include "prt/level_bake.h"
+#include "cli/pipeline/host.h"
+#include "prt/bake/level_bake.h"
 
 #include <optional>
 

@@ -1,8 +1,8 @@
 // Marks materials that cast no shadow.
 
-#include "pipeline/no_shadow.h"
+#include "cli/pipeline/no_shadow.h"
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 
 namespace prt::pipeline {
 

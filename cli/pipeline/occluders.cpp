@@ -1,10 +1,10 @@
 // Bakes occlusion volumes of the rigid parts of a file.
 
-#include "pipeline/occluders.h"
+#include "cli/pipeline/occluders.h"
 
-#include "prt/instances_gltf.h"
-#include "prt/rigid_parts.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "prt/gltf/transfer_gltf.h"
+#include "runtime/scene/gltf/rigid_parts.h"
 
 #include <fmt/core.h>
 #include <glm/geometric.hpp>

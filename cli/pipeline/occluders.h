@@ -1,8 +1,8 @@
 #pragma once
 
-#include "prt/gltf.h"
-#include "prt/ambient_occlusion.h"
-#include "report/report.h"
+#include "cli/report/report.h"
+#include "prt/bake/ambient_occlusion.h"
+#include "prt/gltf/gltf.h"
 
 namespace prt::pipeline {
 

@@ -1,6 +1,6 @@
 // Sums the lobes of vertices to transfer vectors.
 
-#include "pipeline/posed_lobes.h"
+#include "cli/pipeline/posed_lobes.h"
 
 #include <array>
 

@@ -2,8 +2,8 @@
 
 // Converts lobes to transfer in a pose, for code that does not support lobes.
 
-#include "pipeline/model.h"
-#include "prt/pose_bake.h"
+#include "cli/pipeline/model.h"
+#include "prt/bake/pose_bake.h"
 
 namespace prt::pipeline {
 

@@ -2,9 +2,9 @@
 
 // Options for reading models.
 
-#include "pipeline/host.h"
-#include "prt/gltf.h"
-#include "prt/texture.h"
+#include "cli/pipeline/host.h"
+#include "prt/gltf/gltf.h"
+#include "prt/render/texture.h"
 
 namespace prt::pipeline {
 

@@ -1,13 +1,13 @@
 // Lists problems that importers and bakes have with a scene.
 
-#include "pipeline/scene_check.h"
+#include "cli/pipeline/scene_check.h"
 
-#include "prt/support/counted.h"
-#include "prt/support/error.h"
-#include "prt/support/printable.h"
-#include "prt/texels.h"
-#include "prt/texture.h"
-#include "prt/unread.h"
+#include "prt/bake/texels.h"
+#include "prt/core/error.h"
+#include "prt/render/texture.h"
+#include "runtime/scene/gltf/unread.h"
+#include "runtime/support/counted.h"
+#include "runtime/support/printable.h"
 
 #include <fmt/core.h>
 #include <glm/common.hpp>

@@ -2,8 +2,8 @@
 
 // Checks of a model before it is baked: what reading leaves out or replaces, and what a bake would refuse.
 
-#include "pipeline/model.h"
-#include "report/report.h"
+#include "cli/pipeline/model.h"
+#include "cli/report/report.h"
 
 #include <string>
 #include <vector>

@@ -1,6 +1,6 @@
 // Quotes words for a shell.
 
-#include "pipeline/shell_word.h"
+#include "cli/pipeline/shell_word.h"
 
 namespace prt::pipeline {
 

@@ -1,6 +1,6 @@
 // Evaluates errors over all rotations of skies.
 
-#include "pipeline/sky_errors.h"
+#include "cli/pipeline/sky_errors.h"
 
 #include <fmt/core.h>
 #include <glm/trigonometric.hpp>

@@ -2,9 +2,9 @@
 
 // Measures errors of a compressed transfer under skies, at every rotation about +Y.
 
-#include "prt/error_moments.h"
-#include "prt/standard_skies.h"
-#include "report/report.h"
+#include "cli/report/report.h"
+#include "compress/metric/error_moments.h"
+#include "compress/metric/standard_skies.h"
 
 namespace prt::pipeline {
 

@@ -1,9 +1,9 @@
 // Computes sky occlusion from transfer of probes.
 
-#include "pipeline/sky_occlusion.h"
+#include "cli/pipeline/sky_occlusion.h"
 
-#include "prt/light.h"
-#include "prt/error_measures.h"
+#include "prt/core/error_measures.h"
+#include "prt/core/light.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -4,7 +4,7 @@
 // fraction of a grey sky that arrives, including bounces, times the sky's ambient probe. Baseline for volumes
 // of transfer.
 
-#include "prt/transfer_volume.h"
+#include "prt/core/transfer_volume.h"
 
 #include <array>
 #include <vector>

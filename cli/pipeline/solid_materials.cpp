@@ -1,8 +1,8 @@
 // Finds materials that are lit through a medium.
 
-#include "pipeline/solid_materials.h"
+#include "cli/pipeline/solid_materials.h"
 
-#include "prt/bake_options.h"
+#include "prt/bake/bake_options.h"
 
 #include <algorithm>
 

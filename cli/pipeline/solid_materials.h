@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pipeline/model.h"
+#include "cli/pipeline/model.h"
 
 #include <vector>
 

@@ -1,10 +1,10 @@
 // Path-traces pictures and their mean luminance.
 
-#include "pipeline/traced_picture.h"
+#include "cli/pipeline/traced_picture.h"
 
-#include "pipeline/budget_lights.h"
-#include "prt/light.h"
-#include "prt/receiver_colors.h"
+#include "cli/pipeline/budget_lights.h"
+#include "compress/study/receiver_colors.h"
+#include "prt/core/light.h"
 
 #include <algorithm>
 

@@ -2,11 +2,11 @@
 
 // `prt render --path-trace`: the reference for pictures of the runtime.
 
-#include "pipeline/loaded_light.h"
-#include "pipeline/model.h"
-#include "prt/path_tracer.h"
-#include "prt/picture.h"
-#include "prt/picture_error.h"
+#include "bake/reference/path_tracer.h"
+#include "cli/pipeline/loaded_light.h"
+#include "cli/pipeline/model.h"
+#include "prt/render/picture.h"
+#include "runtime/render/picture_error.h"
 
 #include <span>
 

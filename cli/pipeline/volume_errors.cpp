@@ -1,12 +1,12 @@
 // Compares interpolated light of a volume with path tracing.
 
-#include "pipeline/volume_errors.h"
+#include "cli/pipeline/volume_errors.h"
 
-#include "pipeline/no_shadow.h"
-#include "pipeline/sky_occlusion.h"
-#include "prt/incident_reference.h"
-#include "prt/sh.h"
-#include "prt/support/error.h"
+#include "bake/reference/incident_reference.h"
+#include "cli/pipeline/no_shadow.h"
+#include "cli/pipeline/sky_occlusion.h"
+#include "prt/core/error.h"
+#include "prt/core/sh.h"
 
 #include <fmt/core.h>
 #include <glm/geometric.hpp>

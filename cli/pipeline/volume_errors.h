@@ -2,7 +2,7 @@
 
 // Measures errors of volumes at positions in free space, against path tracing.
 
-#include "pipeline/measure_budget.h"
+#include "cli/pipeline/measure_budget.h"
 
 namespace prt::pipeline {
 

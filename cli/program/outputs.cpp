@@ -1,10 +1,10 @@
 // Checks the output files of a command.
 
-#include "program/outputs.h"
+#include "cli/program/outputs.h"
 
-#include "pipeline/model.h"
-#include "prt/support/error.h"
-#include "prt/support/file.h"
+#include "cli/pipeline/model.h"
+#include "prt/core/error.h"
+#include "runtime/support/file.h"
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>

@@ -1,10 +1,10 @@
 // Prints reports and writes their files.
 
-#include "program/publish.h"
+#include "cli/program/publish.h"
 
-#include "program/session.h"
-#include "program/terminal.h"
-#include "prt/support/counted.h"
+#include "cli/program/session.h"
+#include "cli/program/terminal.h"
+#include "runtime/support/counted.h"
 
 #include <fmt/chrono.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "program/session.h"
-#include "report/report.h"
+#include "cli/program/session.h"
+#include "cli/report/report.h"
 
 namespace prt::cli {
 

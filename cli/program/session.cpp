@@ -1,9 +1,9 @@
 // Handles interrupts, progress and outputs of a run.
 
-#include "program/session.h"
+#include "cli/program/session.h"
 
-#include "program/terminal.h"
-#include "prt/support/error.h"
+#include "cli/program/terminal.h"
+#include "prt/core/error.h"
 
 #include <fmt/core.h>
 

@@ -2,9 +2,9 @@
 
 // One run of the program: progress, interruption and outputs.
 
-#include "pipeline/host.h"
-#include "program/staged_outputs.h"
-#include "prt/support/progress.h"
+#include "cli/pipeline/host.h"
+#include "cli/program/staged_outputs.h"
+#include "prt/core/progress.h"
 
 #include <chrono>
 #include <condition_variable>

@@ -1,6 +1,6 @@
 // Publishes all output files together.
 
-#include "program/staged_outputs.h"
+#include "cli/program/staged_outputs.h"
 
 namespace prt::cli {
 

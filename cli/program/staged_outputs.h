@@ -1,6 +1,6 @@
 #pragma once
 
-#include "prt/support/file.h"
+#include "runtime/support/file.h"
 
 #include <memory>
 #include <mutex>

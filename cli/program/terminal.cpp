@@ -1,9 +1,9 @@
 // Prints text without control sequences.
 
-#include "program/terminal.h"
+#include "cli/program/terminal.h"
 
-#include "prt/support/error.h"
-#include "prt/support/printable.h"
+#include "prt/core/error.h"
+#include "runtime/support/printable.h"
 
 #include <cerrno>
 #include <cstdio>

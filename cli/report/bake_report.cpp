@@ -1,10 +1,10 @@
 // Reports a bake of vertices.
 
-#include "report/bake_report.h"
+#include "cli/report/bake_report.h"
 
-#include "prt/support/counted.h"
-#include "prt/support/printable.h"
-#include "report/transfer_words.h"
+#include "cli/report/transfer_words.h"
+#include "runtime/support/counted.h"
+#include "runtime/support/printable.h"
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>

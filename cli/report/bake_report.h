@@ -1,8 +1,8 @@
 #pragma once
 
-#include "prt/bake.h"
-#include "prt/refine.h"
-#include "report/report.h"
+#include "cli/report/report.h"
+#include "prt/bake/bake.h"
+#include "prt/bake/refine.h"
 
 #include <cstdint>
 #include <optional>

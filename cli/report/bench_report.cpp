@@ -1,6 +1,6 @@
 // Reports the timings of prt bench.
 
-#include "report/bench_report.h"
+#include "cli/report/bench_report.h"
 
 #include <fmt/core.h>
 

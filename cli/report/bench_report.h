@@ -1,7 +1,7 @@
 #pragma once
 
-#include "prt/bench.h"
-#include "report/report.h"
+#include "bake/studies/bench.h"
+#include "cli/report/report.h"
 
 namespace prt::pipeline {
 

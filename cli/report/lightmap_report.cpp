@@ -1,9 +1,9 @@
 // Reports a bake into a lightmap.
 
-#include "report/lightmap_report.h"
+#include "cli/report/lightmap_report.h"
 
-#include "prt/support/counted.h"
-#include "report/transfer_words.h"
+#include "cli/report/transfer_words.h"
+#include "runtime/support/counted.h"
 
 #include <fmt/ranges.h>
 

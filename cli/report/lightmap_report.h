@@ -1,7 +1,7 @@
 #pragma once
 
-#include "prt/lightmap_bake.h"
-#include "report/report.h"
+#include "cli/report/report.h"
+#include "prt/bake/lightmap_bake.h"
 
 #include <cstdint>
 #include <string>

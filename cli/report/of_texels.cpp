@@ -1,6 +1,6 @@
 // Renames vertices to texels in a report.
 
-#include "report/of_texels.h"
+#include "cli/report/of_texels.h"
 
 #include <string>
 #include <string_view>

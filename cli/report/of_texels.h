@@ -1,6 +1,6 @@
 #pragma once
 
-#include "report/report.h"
+#include "cli/report/report.h"
 
 namespace prt::pipeline {
 

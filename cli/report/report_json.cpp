@@ -1,6 +1,6 @@
 // Writes reports as JSON and CSV.
 
-#include "report/report.h"
+#include "cli/report/report.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,7 +1,7 @@
 // Writes reports as HTML.
 
-#include "report/report.h"
-#include "report/report_files.h"
+#include "cli/report/report.h"
+#include "cli/report/report_files.h"
 
 #include <string_view>
 

@@ -1,7 +1,7 @@
 // Writes reports as text for the terminal.
 
-#include "prt/support/printable.h"
-#include "report/report.h"
+#include "cli/report/report.h"
+#include "runtime/support/printable.h"
 
 #include <fmt/core.h>
 

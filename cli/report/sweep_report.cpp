@@ -1,6 +1,6 @@
 // Reports rate and distortion of compression methods.
 
-#include "report/sweep_report.h"
+#include "cli/report/sweep_report.h"
 
 #include <fmt/core.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "prt/sweep.h"
-#include "report/report.h"
+#include "cli/report/report.h"
+#include "compress/study/sweep.h"
 
 namespace prt::pipeline {
 

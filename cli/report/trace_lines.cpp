@@ -1,5 +1,5 @@
 // Writes the events of the compressor as JSON lines, for `prt compress --trace`.
-#include "report/trace_lines.h"
+#include "cli/report/trace_lines.h"
 
 namespace prt::pipeline {
 namespace {

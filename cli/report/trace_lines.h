@@ -1,7 +1,7 @@
 #pragma once
 
-#include "prt/compress.h"
-#include "report/report.h"
+#include "cli/report/report.h"
+#include "prt/compress/compress.h"
 
 #include <string>
 

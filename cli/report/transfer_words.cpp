@@ -1,8 +1,8 @@
 // Describes transfer and its record.
 
-#include "report/transfer_words.h"
+#include "cli/report/transfer_words.h"
 
-#include "prt/support/counted.h"
+#include "runtime/support/counted.h"
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>

@@ -2,9 +2,9 @@
 
 // Figures and words about transfer and its record.
 
-#include "prt/baked_transfer.h"
-#include "prt/clustered_bases.h"
-#include "report/report.h"
+#include "cli/report/report.h"
+#include "prt/core/baked_transfer.h"
+#include "prt/core/clustered_bases.h"
 
 #include <string>
 #include <vector>

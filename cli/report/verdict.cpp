@@ -1,6 +1,6 @@
 // Summarises the errors of a compressed file in one line.
 
-#include "report/verdict.h"
+#include "cli/report/verdict.h"
 
 #include <fmt/core.h>
 

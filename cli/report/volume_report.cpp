@@ -1,8 +1,8 @@
 // Reports the bake and the compression of a volume.
 
-#include "report/volume_report.h"
+#include "cli/report/volume_report.h"
 
-#include "report/transfer_words.h"
+#include "cli/report/transfer_words.h"
 
 #include <fmt/core.h>
 

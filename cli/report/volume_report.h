@@ -1,8 +1,8 @@
 #pragma once
 
-#include "prt/compress.h"
-#include "prt/volume_bake.h"
-#include "report/report.h"
+#include "cli/report/report.h"
+#include "prt/bake/volume_bake.h"
+#include "prt/compress/compress.h"
 
 namespace prt::pipeline {
 

@@ -1,7 +1,7 @@
 // Assigns points to the clusters with minimum loss: the step of Lloyd's iteration, with the distance to an
 // affine subspace instead of a mean (Sloan et al. 2003), for blocks of points in SIMD registers.
 
-#include "clusters/assignment.h"
+#include "compress/clusters/assignment.h"
 
 #include <numeric>
 

@@ -2,8 +2,8 @@
 
 // Assignment of points to clusters.
 
-#include "clusters/affine_clusters.h"
-#include "clusters/member_blocks.h"
+#include "compress/clusters/affine_clusters.h"
+#include "compress/clusters/member_blocks.h"
 
 #include <array>
 #include <limits>

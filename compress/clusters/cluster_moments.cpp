@@ -1,10 +1,10 @@
 // Local PCA from incrementally updated moments (Sloan et al. 2003, section 4.2): eigenvectors of each
 // cluster's covariance, via a low-rank factor for clusters of few points.
 
-#include "clusters/cluster_moments.h"
+#include "compress/clusters/cluster_moments.h"
 
-#include "prt/support/parallel.h"
-#include "tuning/tuning.h"
+#include "compress/tuning/tuning.h"
+#include "runtime/support/parallel.h"
 
 #include <Eigen/Dense>
 

@@ -2,8 +2,8 @@
 
 // Moments of clusters and local PCA.
 
-#include "clusters/component_plan.h"
-#include "clusters/points.h"
+#include "compress/clusters/component_plan.h"
+#include "compress/clusters/points.h"
 
 namespace prt {
 

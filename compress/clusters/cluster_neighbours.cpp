@@ -1,8 +1,8 @@
 // Finds for every cluster those that its points may move to, so that a round need not try all.
 
-#include "clusters/cluster_neighbours.h"
+#include "compress/clusters/cluster_neighbours.h"
 
-#include "tuning/tuning.h"
+#include "compress/tuning/tuning.h"
 
 #include <utility>
 

@@ -2,7 +2,7 @@
 
 // Neighbourhoods of clusters.
 
-#include "clusters/assignment.h"
+#include "compress/clusters/assignment.h"
 
 #include <Eigen/Core>
 

@@ -2,10 +2,10 @@
 // Precomputed Radiance Transfer"): Lloyd's iteration with affine subspaces and penalties for the expected
 // quantisation loss, as in entropy-constrained vector quantisation (Chou, Lookabaugh and Gray 1989).
 
-#include "clusters/cluster_rounds.h"
+#include "compress/clusters/cluster_rounds.h"
 
-#include "clusters/cluster_neighbours.h"
-#include "tuning/tuning.h"
+#include "compress/clusters/cluster_neighbours.h"
+#include "compress/tuning/tuning.h"
 
 #include <cmath>
 

@@ -2,9 +2,9 @@
 
 // Rounds of clustered PCA.
 
-#include "clusters/assignment.h"
-#include "clusters/cluster_moments.h"
-#include "prt/compress_trace.h"
+#include "compress/clusters/assignment.h"
+#include "compress/clusters/cluster_moments.h"
+#include "prt/compress/compress_trace.h"
 
 namespace prt {
 

@@ -1,10 +1,10 @@
 // Controls clustered PCA (Sloan, Hall, Hart and Snyder 2003): start, growth, rounds, moves, multipliers.
 
-#include "clusters/clustering.h"
+#include "compress/clusters/clustering.h"
 
-#include "clusters/kmeans.h"
-#include "clusters/moves.h"
-#include "clusters/multipliers.h"
+#include "compress/clusters/kmeans.h"
+#include "compress/clusters/moves.h"
+#include "compress/clusters/multipliers.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,9 +2,9 @@
 
 // Clustered PCA of points.
 
-#include "clusters/cluster_rounds.h"
-#include "prt/support/progress.h"
-#include "tuning/tuning.h"
+#include "compress/clusters/cluster_rounds.h"
+#include "compress/tuning/tuning.h"
+#include "prt/core/progress.h"
 
 #include <random>
 

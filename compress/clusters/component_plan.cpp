@@ -1,7 +1,7 @@
 // Distributes the bits of a receiver over the components of a cluster: greedily, by the error reduction of
 // each bit for a Gaussian (Gersho and Gray 1992, chapter 8; Max 1960).
 
-#include "clusters/component_plan.h"
+#include "compress/clusters/component_plan.h"
 
 #include <algorithm>
 #include <array>

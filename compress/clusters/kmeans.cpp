@@ -1,9 +1,9 @@
 // Vector quantisation, the start of clustered PCA: k-means++ seeding (Arthur and Vassilvitskii 2007), then
 // Lloyd's iteration (Lloyd 1982) until the error hardly decreases.
 
-#include "clusters/kmeans.h"
+#include "compress/clusters/kmeans.h"
 
-#include "tuning/tuning.h"
+#include "compress/tuning/tuning.h"
 
 namespace prt {
 namespace {

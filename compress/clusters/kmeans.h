@@ -2,8 +2,8 @@
 
 // Vector quantisation.
 
-#include "clusters/assignment.h"
-#include "prt/support/progress.h"
+#include "compress/clusters/assignment.h"
+#include "prt/core/progress.h"
 
 #include <random>
 

@@ -1,6 +1,6 @@
 // Sorts points by cluster and splits them into blocks.
 
-#include "clusters/member_blocks.h"
+#include "compress/clusters/member_blocks.h"
 
 #include <algorithm>
 

@@ -2,8 +2,8 @@
 
 // Points grouped by cluster for SIMD processing.
 
-#include "clusters/points.h"
-#include "prt/support/parallel.h"
+#include "compress/clusters/points.h"
+#include "runtime/support/parallel.h"
 
 namespace prt {
 

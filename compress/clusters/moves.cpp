@@ -1,9 +1,9 @@
 // Split-and-merge moves between clusters, to escape the local optima of Lloyd's iteration.
 
-#include "clusters/moves.h"
+#include "compress/clusters/moves.h"
 
-#include "clusters/cluster_neighbours.h"
-#include "tuning/tuning.h"
+#include "compress/clusters/cluster_neighbours.h"
+#include "compress/tuning/tuning.h"
 
 #include <numeric>
 #include <tuple>

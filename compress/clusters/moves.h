@@ -2,8 +2,8 @@
 
 // Split and merge moves of clusters.
 
-#include "clusters/cluster_rounds.h"
-#include "prt/support/progress.h"
+#include "compress/clusters/cluster_rounds.h"
+#include "prt/core/progress.h"
 
 namespace prt {
 

@@ -1,9 +1,9 @@
 // Finds the multipliers (Lagrange multipliers of rate and distortion) for which bases and components meet
 // their limits (docs/math.md, section 4, "Different sizes").
 
-#include "clusters/multipliers.h"
+#include "compress/clusters/multipliers.h"
 
-#include "tuning/tuning.h"
+#include "compress/tuning/tuning.h"
 
 #include <cmath>
 

@@ -2,8 +2,8 @@
 
 // Lagrange multipliers of rows and components.
 
-#include "clusters/cluster_rounds.h"
-#include "prt/support/progress.h"
+#include "compress/clusters/cluster_rounds.h"
+#include "prt/core/progress.h"
 
 namespace prt {
 

@@ -1,9 +1,9 @@
 // Projects transfer vectors into the space of a frame (docs/math.md, section 4) in a SIMD layout.
 
-#include "clusters/points.h"
+#include "compress/clusters/points.h"
 
-#include "metric/transfer_columns.h"
-#include "prt/support/parallel.h"
+#include "compress/metric/transfer_columns.h"
+#include "runtime/support/parallel.h"
 
 #include <Eigen/Dense>
 

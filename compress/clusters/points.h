@@ -2,10 +2,10 @@
 
 // Transfer vectors as points for clustering.
 
-#include "clusters/predictor_coordinates.h"
-#include "metric/frame.h"
-#include "metric/point_scales.h"
-#include "prt/transfer_view.h"
+#include "compress/clusters/predictor_coordinates.h"
+#include "compress/metric/frame.h"
+#include "compress/metric/point_scales.h"
+#include "prt/core/transfer_view.h"
 
 #include <cstdint>
 #include <span>

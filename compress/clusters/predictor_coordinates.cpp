@@ -1,6 +1,6 @@
 // Computes predictor coordinates: normals and positions, scaled by their standard deviation.
 
-#include "clusters/predictor_coordinates.h"
+#include "compress/clusters/predictor_coordinates.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

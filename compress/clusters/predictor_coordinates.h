@@ -2,8 +2,8 @@
 
 // Predictor coordinates of receivers.
 
-#include "prt/clustered_bases.h"
-#include "prt/receiver_surface.h"
+#include "prt/compress/receiver_surface.h"
+#include "prt/core/clustered_bases.h"
 
 #include <cstddef>
 #include <span>

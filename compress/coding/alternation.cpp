@@ -1,10 +1,10 @@
 // Alternates between codes for clusters and clusters for codes, like the generalised Lloyd algorithm (Gersho
 // and Gray 1992), with weights and bases on the grids of the file (docs/math.md, eq. 25 to 27).
 
-#include "coding/alternation.h"
+#include "compress/coding/alternation.h"
 
-#include "coding/refit.h"
-#include "prt/clustered_bases.h"
+#include "compress/coding/refit.h"
+#include "prt/core/clustered_bases.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 
 // Alternating optimisation of codes and clusters.
 
-#include "coding/weight_coding.h"
-#include "prt/compress_trace.h"
+#include "compress/coding/weight_coding.h"
+#include "prt/compress/compress_trace.h"
 
 namespace prt {
 

@@ -1,6 +1,6 @@
 // Stores weights as consecutive bit fields, point by point.
 
-#include "coding/code_weights.h"
+#include "compress/coding/code_weights.h"
 
 #include <bit>
 #include <cstdint>

@@ -2,7 +2,7 @@
 
 // Bit-packed storage of weights.
 
-#include "coding/quantised_clusters.h"
+#include "compress/coding/quantised_clusters.h"
 
 #include <cstddef>
 #include <vector>

@@ -1,9 +1,9 @@
 // Conjugate gradients (Hestenes and Stiefel 1952) with diagonal preconditioning. Unlike Eigen's version, it
 // stores floats and sums in double in a fixed order, so that a file does not depend on the version of Eigen.
 
-#include "coding/conjugate_gradients.h"
+#include "compress/coding/conjugate_gradients.h"
 
-#include "tuning/tuning.h"
+#include "compress/tuning/tuning.h"
 
 namespace prt {
 

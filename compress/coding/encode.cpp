@@ -1,7 +1,7 @@
 // Writes clusters and codes in file format: rows as integers over rounded axes, weights in bits; or both as
 // floats (docs/format.md, PRTKIT_clustered_pca).
 
-#include "coding/encode.h"
+#include "compress/coding/encode.h"
 
 #include <Eigen/Dense>
 

@@ -2,9 +2,9 @@
 
 // Encoding of clusters and codes to transfer.
 
-#include "coding/weight_coding.h"
-#include "metric/frame.h"
-#include "prt/clustered_transfer.h"
+#include "compress/coding/weight_coding.h"
+#include "compress/metric/frame.h"
+#include "prt/core/clustered_transfer.h"
 
 namespace prt {
 

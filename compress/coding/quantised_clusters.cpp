@@ -2,7 +2,7 @@
 // The range of the uniform quantiser is chosen as for a Gaussian (Max 1960), but by trial on the points
 // themselves.
 
-#include "coding/quantised_clusters.h"
+#include "compress/coding/quantised_clusters.h"
 
 namespace prt {
 namespace {

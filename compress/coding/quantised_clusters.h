@@ -2,9 +2,9 @@
 
 // Clusters with quantised weights.
 
-#include "clusters/clustering.h"
-#include "coding/weight_grid.h"
-#include "prt/clustered_transfer.h"
+#include "compress/clusters/clustering.h"
+#include "compress/coding/weight_grid.h"
+#include "prt/core/clustered_transfer.h"
 
 namespace prt {
 

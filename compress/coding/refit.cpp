@@ -1,9 +1,9 @@
 // Fits clusters to given codes: the centroid step of vector quantisation (Gersho and Gray 1992), for
 // subspaces by the normal equations of docs/math.md, eq. 26.
 
-#include "coding/refit.h"
+#include "compress/coding/refit.h"
 
-#include "tuning/tuning.h"
+#include "compress/tuning/tuning.h"
 
 #include <Eigen/Dense>
 

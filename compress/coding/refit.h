@@ -2,7 +2,7 @@
 
 // Least-squares update of clusters.
 
-#include "coding/weight_coding.h"
+#include "compress/coding/weight_coding.h"
 
 namespace prt {
 

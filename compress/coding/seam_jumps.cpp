@@ -1,5 +1,5 @@
 // Tracks light jumps at UV seams.
-#include "coding/seam_jumps.h"
+#include "compress/coding/seam_jumps.h"
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 
 // Jumps of light across UV seams of lightmaps, while codes change.
 
-#include "prt/lightmap.h"
+#include "prt/core/lightmap.h"
 
 #include <Eigen/Dense>
 

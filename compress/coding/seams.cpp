@@ -1,11 +1,11 @@
 // Smooths the error over the mesh, docs/math.md, eq. 28: weights by conjugate gradients on its normal
 // equations, clusters receiver by receiver, by iterated conditional modes (Besag 1986).
 
-#include "coding/seams.h"
+#include "compress/coding/seams.h"
 
-#include "coding/conjugate_gradients.h"
-#include "coding/seam_jumps.h"
-#include "prt/adjacency.h"
+#include "compress/coding/conjugate_gradients.h"
+#include "compress/coding/seam_jumps.h"
+#include "prt/core/adjacency.h"
 
 #include <Eigen/Dense>
 

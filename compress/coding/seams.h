@@ -2,9 +2,9 @@
 
 // Smoothing of the error over the mesh.
 
-#include "coding/weight_coding.h"
-#include "prt/lightmap.h"
-#include "tuning/tuning.h"
+#include "compress/coding/weight_coding.h"
+#include "compress/tuning/tuning.h"
+#include "prt/core/lightmap.h"
 
 namespace prt {
 

@@ -1,9 +1,9 @@
 // Codes points: a cluster, and weights on its grids, rounded one after another for the residual of the
 // previous ones. This is matching pursuit over the rows in order (Mallat and Zhang 1993).
 
-#include "coding/weight_coding.h"
+#include "compress/coding/weight_coding.h"
 
-#include "clusters/cluster_neighbours.h"
+#include "compress/clusters/cluster_neighbours.h"
 
 namespace prt {
 namespace {

@@ -2,7 +2,7 @@
 
 // Coding of points by clusters and quantised weights.
 
-#include "coding/code_weights.h"
+#include "compress/coding/code_weights.h"
 
 namespace prt {
 

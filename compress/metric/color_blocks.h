@@ -2,7 +2,7 @@
 
 // Mapping from light columns to the coefficients of one color.
 
-#include "prt/transfer_layout.h"
+#include "prt/core/transfer_layout.h"
 
 #include <algorithm>
 #include <cstddef>

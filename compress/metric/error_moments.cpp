@@ -1,15 +1,15 @@
 // Computes errors under any lighting from second moments of transfer, and the worst error over all rotations
 // about +Y.
 
-#include "prt/error_moments.h"
+#include "compress/metric/error_moments.h"
 
-#include "metric/color_blocks.h"
-#include "metric/rotated_lighting.h"
-#include "metric/transfer_columns.h"
-#include "prt/error_measures.h"
-#include "prt/support/error.h"
-#include "prt/support/parallel.h"
-#include "tuning/tuning.h"
+#include "compress/metric/color_blocks.h"
+#include "compress/metric/rotated_lighting.h"
+#include "compress/metric/transfer_columns.h"
+#include "compress/tuning/tuning.h"
+#include "prt/core/error.h"
+#include "prt/core/error_measures.h"
+#include "runtime/support/parallel.h"
 
 #include <Eigen/Dense>
 #include <glm/geometric.hpp>

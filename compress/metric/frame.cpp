@@ -1,11 +1,11 @@
 // Computes principal axes of transfer in the metric of light (docs/math.md, section 4), so that clustering
 // needs few dimensions.
 
-#include "metric/frame.h"
+#include "compress/metric/frame.h"
 
-#include "metric/transfer_columns.h"
-#include "prt/support/parallel.h"
-#include "tuning/tuning.h"
+#include "compress/metric/transfer_columns.h"
+#include "compress/tuning/tuning.h"
+#include "runtime/support/parallel.h"
 
 #include <Eigen/Dense>
 

@@ -2,8 +2,8 @@
 
 // Principal axes of transfer in the metric of light.
 
-#include "prt/light_metric.h"
-#include "prt/transfer_view.h"
+#include "prt/compress/light_metric.h"
+#include "prt/core/transfer_view.h"
 
 #include <span>
 #include <vector>

@@ -1,14 +1,14 @@
 // Measures contrast jumps between clusters (docs/math.md, eq. 33c).
 
-#include "prt/jumps.h"
+#include "compress/metric/jumps.h"
 
-#include "metric/color_blocks.h"
-#include "metric/rotated_lighting.h"
-#include "metric/transfer_columns.h"
-#include "prt/light.h"
-#include "prt/error_measures.h"
-#include "prt/support/error.h"
-#include "prt/support/parallel.h"
+#include "compress/metric/color_blocks.h"
+#include "compress/metric/rotated_lighting.h"
+#include "compress/metric/transfer_columns.h"
+#include "prt/core/error.h"
+#include "prt/core/error_measures.h"
+#include "prt/core/light.h"
+#include "runtime/support/parallel.h"
 
 #include <Eigen/Dense>
 

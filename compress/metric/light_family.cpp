@@ -1,12 +1,12 @@
 // Computes second moments of families of lightings (docs/math.md, section 4).
 
-#include "metric/light_family.h"
+#include "compress/metric/light_family.h"
 
-#include "metric/color_blocks.h"
-#include "metric/natural_share.h"
-#include "prt/sh.h"
-#include "prt/standard_skies.h"
-#include "tuning/tuning.h"
+#include "compress/metric/color_blocks.h"
+#include "compress/metric/natural_share.h"
+#include "compress/metric/standard_skies.h"
+#include "compress/tuning/tuning.h"
+#include "prt/core/sh.h"
 
 #include <Eigen/Dense>
 #include <glm/trigonometric.hpp>

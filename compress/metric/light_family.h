@@ -2,7 +2,7 @@
 
 // Random lightings of a family: a member, rotated about +Y by any angle, with added random texture.
 
-#include "prt/light_metric.h"
+#include "prt/compress/light_metric.h"
 
 #include <vector>
 

@@ -1,14 +1,14 @@
 // Cost of a transfer error from second moments of lighting (docs/math.md, eq. 22); natural lighting after
 // Dror, Willsky and Adelson (2004, "Statistical characterization of real-world illumination").
 
-#include "prt/light_metric.h"
+#include "prt/compress/light_metric.h"
 
-#include "metric/color_blocks.h"
-#include "metric/natural_share.h"
-#include "metric/transfer_columns.h"
-#include "prt/support/error.h"
-#include "prt/support/parallel.h"
-#include "tuning/tuning.h"
+#include "compress/metric/color_blocks.h"
+#include "compress/metric/natural_share.h"
+#include "compress/metric/transfer_columns.h"
+#include "compress/tuning/tuning.h"
+#include "prt/core/error.h"
+#include "runtime/support/parallel.h"
 
 #include <Eigen/Dense>
 

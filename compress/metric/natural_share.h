@@ -2,7 +2,7 @@
 
 // Regularisation of light metrics.
 
-#include "prt/light_metric.h"
+#include "prt/compress/light_metric.h"
 
 namespace prt {
 

@@ -1,6 +1,6 @@
 // Copies weights of points into SIMD lanes.
 
-#include "metric/point_scales.h"
+#include "compress/metric/point_scales.h"
 
 namespace prt {
 

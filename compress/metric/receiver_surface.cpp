@@ -1,5 +1,7 @@
 // Collects receiver data from a scene.
-#include "prt/receiver_surface.h"
+#include "prt/compress/receiver_surface.h"
+
+#include "runtime/scene/mesh_edges.h"
 
 namespace prt {
 

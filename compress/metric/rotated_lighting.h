@@ -1,7 +1,7 @@
 #pragma once
 
-#include "prt/light.h"
-#include "prt/transfer_layout.h"
+#include "prt/core/light.h"
+#include "prt/core/transfer_layout.h"
 
 namespace prt {
 

@@ -1,11 +1,11 @@
 // Contrast of lamps: weights of errors, and a space in which they are distances (docs/math.md, section 4).
 
-#include "metric/seen_lamps.h"
+#include "compress/metric/seen_lamps.h"
 
-#include "metric/transfer_columns.h"
-#include "prt/light.h"
-#include "prt/error_measures.h"
-#include "tuning/tuning.h"
+#include "compress/metric/transfer_columns.h"
+#include "compress/tuning/tuning.h"
+#include "prt/core/error_measures.h"
+#include "prt/core/light.h"
 
 #include <Eigen/Dense>
 

@@ -2,10 +2,10 @@
 
 // Contrast errors of lamps.
 
-#include "metric/frame.h"
-#include "metric/point_scales.h"
-#include "prt/light_metric.h"
-#include "prt/transfer_view.h"
+#include "compress/metric/frame.h"
+#include "compress/metric/point_scales.h"
+#include "prt/compress/light_metric.h"
+#include "prt/core/transfer_view.h"
 
 #include <optional>
 #include <span>

@@ -1,8 +1,8 @@
 // Computes costs of errors under skies and lamps (docs/math.md, section 4).
 
-#include "metric/seen_light.h"
+#include "compress/metric/seen_light.h"
 
-#include "metric/significance.h"
+#include "compress/metric/significance.h"
 
 namespace prt {
 namespace {

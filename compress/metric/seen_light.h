@@ -2,8 +2,8 @@
 
 // Cost and visibility of errors at each receiver.
 
-#include "metric/seen_lamps.h"
-#include "metric/sky_contrast.h"
+#include "compress/metric/seen_lamps.h"
+#include "compress/metric/sky_contrast.h"
 
 #include <optional>
 #include <span>

@@ -1,6 +1,6 @@
 // Converts areas of receivers to significance, the a_p of docs/math.md, eq. 21.
 
-#include "metric/significance.h"
+#include "compress/metric/significance.h"
 
 #include <algorithm>
 

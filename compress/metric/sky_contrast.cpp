@@ -1,11 +1,11 @@
 // Weights errors under skies by the local light (docs/math.md, eq. 28c).
 
-#include "metric/sky_contrast.h"
+#include "compress/metric/sky_contrast.h"
 
-#include "metric/transfer_columns.h"
-#include "prt/error_measures.h"
-#include "prt/support/parallel.h"
-#include "tuning/tuning.h"
+#include "compress/metric/transfer_columns.h"
+#include "compress/tuning/tuning.h"
+#include "prt/core/error_measures.h"
+#include "runtime/support/parallel.h"
 
 #include <Eigen/Dense>
 

@@ -2,8 +2,8 @@
 
 // Contrast errors under skies.
 
-#include "prt/light_metric.h"
-#include "prt/transfer_view.h"
+#include "prt/compress/light_metric.h"
+#include "prt/core/transfer_view.h"
 
 #include <span>
 #include <vector>

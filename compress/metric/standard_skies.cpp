@@ -1,11 +1,11 @@
 // Built-in skies: daylight by Preetham, Shirley and Smits (1999), the CIE overcast sky, both over grey
 // ground, and rooms.
 
-#include "prt/standard_skies.h"
+#include "compress/metric/standard_skies.h"
 
-#include "prt/sh.h"
-#include "prt/light.h"
-#include "tuning/tuning.h"
+#include "compress/tuning/tuning.h"
+#include "prt/core/light.h"
+#include "prt/core/sh.h"
 
 #include <glm/trigonometric.hpp>
 

@@ -2,7 +2,7 @@
 
 // Transfer vectors as matrices.
 
-#include "prt/transfer_view.h"
+#include "prt/core/transfer_view.h"
 
 #include <Eigen/Core>
 

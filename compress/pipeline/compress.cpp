@@ -2,16 +2,16 @@
 // space where distance is error of exit radiance, with weight quantisation inside the loop and smoothed
 // seams.
 
-#include "prt/compress.h"
+#include "prt/compress/compress.h"
 
-#include "coding/alternation.h"
-#include "coding/encode.h"
-#include "coding/refit.h"
-#include "coding/seams.h"
-#include "metric/seen_light.h"
-#include "pipeline/compress_from.h"
-#include "pipeline/compress_options.h"
-#include "prt/support/stopwatch.h"
+#include "compress/coding/alternation.h"
+#include "compress/coding/encode.h"
+#include "compress/coding/refit.h"
+#include "compress/coding/seams.h"
+#include "compress/metric/seen_light.h"
+#include "compress/pipeline/compress_from.h"
+#include "compress/pipeline/compress_options.h"
+#include "runtime/support/stopwatch.h"
 
 namespace prt {
 namespace {
@@ -134,7 +134,7 @@ void leave_logarithms(const Task& task, Coding& coding, ClusterLists& candidates
 }
 
 /// Returns the clusters with receivers, sorted by the mean of their first and last receiver. Clusters of one
-/// mesh are then consecutive, so that its instances need few constants (prt/instances.h).
+/// mesh are then consecutive, so that its instances need few constants (prt/core/instances.h).
 std::vector<std::uint32_t> clusters_in_order(std::span<const std::uint32_t> of_receivers, std::size_t count) {
     std::vector<std::size_t> first(count), last(count);
     std::vector<std::uint32_t> order;

@@ -2,7 +2,7 @@
 
 // Compression within a search.
 
-#include "prt/compress.h"
+#include "prt/compress/compress.h"
 
 namespace prt {
 

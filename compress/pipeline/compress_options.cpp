@@ -1,9 +1,9 @@
 // Compression options: presets, defaults by format, and validation.
 
-#include "pipeline/compress_options.h"
+#include "compress/pipeline/compress_options.h"
 
-#include "prt/support/counted.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "runtime/support/counted.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 
 // Validation and defaults of compression options.
 
-#include "clusters/clustering.h"
-#include "prt/compress.h"
+#include "compress/clusters/clustering.h"
+#include "prt/compress/compress.h"
 
 namespace prt {
 

@@ -1,7 +1,7 @@
 // Compresses volumes with probes as receivers.
-#include "prt/compress_volume.h"
+#include "prt/compress/compress_volume.h"
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 
 #include <algorithm>
 

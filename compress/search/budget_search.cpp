@@ -1,8 +1,8 @@
 // Searches clusters, bits, predictors and precision for a budget (docs/math.md, section 4, "Budgets").
 
-#include "search/budget_search.h"
+#include "compress/search/budget_search.h"
 
-#include "pipeline/compress_options.h"
+#include "compress/pipeline/compress_options.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 
 // Search of compression settings within a budget.
 
-#include "search/trials.h"
-#include "tuning/tuning.h"
+#include "compress/search/trials.h"
+#include "compress/tuning/tuning.h"
 
 namespace prt {
 

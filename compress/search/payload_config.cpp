@@ -1,6 +1,6 @@
 // Bytes per receiver and shader operations of a payload configuration.
 
-#include "search/payload_config.h"
+#include "compress/search/payload_config.h"
 
 #include <algorithm>
 #include <numeric>

@@ -2,7 +2,7 @@
 
 // Settings that are fixed while the number of clusters varies.
 
-#include "prt/compress.h"
+#include "prt/compress/compress.h"
 
 #include <compare>
 #include <limits>

@@ -1,11 +1,11 @@
 // Entry points of the search: budgets and presets.
-#include "prt/search.h"
+#include "prt/compress/search.h"
 
-#include "pipeline/compress_options.h"
-#include "prt/support/counted.h"
-#include "prt/support/error.h"
-#include "prt/support/stopwatch.h"
-#include "search/budget_search.h"
+#include "compress/pipeline/compress_options.h"
+#include "compress/search/budget_search.h"
+#include "prt/core/error.h"
+#include "runtime/support/counted.h"
+#include "runtime/support/stopwatch.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // Measures the quantities that a budget limits.
-#include "search/trial_evaluator.h"
+#include "compress/search/trial_evaluator.h"
 
-#include "prt/error_moments.h"
+#include "compress/metric/error_moments.h"
 
 #include <algorithm>
 

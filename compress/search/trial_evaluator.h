@@ -2,8 +2,8 @@
 
 // Evaluation of results against a budget.
 
-#include "prt/jumps.h"
-#include "prt/search.h"
+#include "compress/metric/jumps.h"
+#include "prt/compress/search.h"
 
 #include <optional>
 

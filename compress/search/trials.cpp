@@ -1,7 +1,7 @@
 // Runs and compares the trials of a search.
-#include "search/trials.h"
+#include "compress/search/trials.h"
 
-#include "pipeline/compress_from.h"
+#include "compress/pipeline/compress_from.h"
 
 #include <algorithm>
 #include <bit>

@@ -2,11 +2,11 @@
 
 // Trials of a search.
 
-#include "metric/seen_light.h"
-#include "prt/search.h"
-#include "search/payload_config.h"
-#include "search/trial_evaluator.h"
-#include "tuning/tuning.h"
+#include "compress/metric/seen_light.h"
+#include "compress/search/payload_config.h"
+#include "compress/search/trial_evaluator.h"
+#include "compress/tuning/tuning.h"
+#include "prt/compress/search.h"
 
 #include <map>
 

@@ -1,11 +1,11 @@
 // Reference methods: SH of fewer bands, and clustered PCA as published (Sloan, Hall, Hart and Snyder 2003)
 // and as stored by D3DX.
 
-#include "prt/baselines.h"
+#include "compress/study/baselines.h"
 
-#include "clusters/clustering.h"
-#include "metric/significance.h"
-#include "prt/light_metric.h"
+#include "compress/clusters/clustering.h"
+#include "compress/metric/significance.h"
+#include "prt/compress/light_metric.h"
 
 #include <glm/gtc/packing.hpp>
 

@@ -1,8 +1,8 @@
 // Visualises clusters, components, errors and seams as colors of receivers.
 
-#include "prt/receiver_colors.h"
+#include "compress/study/receiver_colors.h"
 
-#include "prt/error_measures.h"
+#include "prt/core/error_measures.h"
 
 #include <glm/common.hpp>
 

@@ -1,12 +1,12 @@
 // Measures rate and distortion of this compressor and of reference methods, at equal bytes and at equal
 // components per receiver.
 
-#include "prt/sweep.h"
+#include "compress/study/sweep.h"
 
-#include "prt/error_measures.h"
-#include "prt/search.h"
-#include "prt/support/counted.h"
-#include "prt/support/stopwatch.h"
+#include "prt/compress/search.h"
+#include "prt/core/error_measures.h"
+#include "runtime/support/counted.h"
+#include "runtime/support/stopwatch.h"
 
 #include <algorithm>
 #include <cmath>

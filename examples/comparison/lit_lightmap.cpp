@@ -2,10 +2,10 @@
 
 #include "lit_lightmap.h"
 
-#include "prt/lightmap_bake.h"
-#include "prt/lightmap_file.h"
-#include "prt/search.h"
-#include "prt/unwrap.h"
+#include "bake/products/lightmaps/unwrap.h"
+#include "prt/bake/lightmap_bake.h"
+#include "prt/compress/search.h"
+#include "prt/render/lightmap_file.h"
 
 namespace comparison {
 

@@ -2,8 +2,8 @@
 
 #include "pictures/model.h"
 
-#include "prt/clustered_transfer.h"
-#include "prt/lightmap.h"
+#include "prt/core/clustered_transfer.h"
+#include "prt/core/lightmap.h"
 
 #include <filesystem>
 #include <memory>

@@ -2,8 +2,8 @@
 
 #include "report.h"
 
-#include "prt/support/error.h"
-#include "prt/support/file.h"
+#include "prt/core/error.h"
+#include "runtime/support/file.h"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>

@@ -5,15 +5,15 @@
 #include "lit_lightmap.h"
 #include "pictures/frame_renderer.h"
 
-#include "prt/bake.h"
-#include "prt/gl_renderer.h"
-#include "prt/lightmap_lookup.h"
-#include "prt/path_tracer.h"
-#include "prt/ray_renderer.h"
-#include "prt/search.h"
-#include "prt/suns.h"
-#include "prt/support/stopwatch.h"
-#include "prt/tone_map.h"
+#include "bake/reference/path_tracer.h"
+#include "bake/reference/ray_renderer.h"
+#include "prt/bake/bake.h"
+#include "prt/compress/search.h"
+#include "prt/fit/suns.h"
+#include "prt/gl/gl_renderer.h"
+#include "prt/render/tone_map.h"
+#include "runtime/render/lightmap_lookup.h"
+#include "runtime/support/stopwatch.h"
 
 #include <epoxy/gl.h>
 #include <fmt/core.h>

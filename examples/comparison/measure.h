@@ -5,11 +5,11 @@
 #include "pictures/model.h"
 #include "pictures/picture_kind.h"
 
-#include "prt/environment.h"
-#include "prt/gl_context.h"
-#include "prt/image_file.h"
-#include "prt/picture_error.h"
-#include "prt/light.h"
+#include "prt/core/environment.h"
+#include "prt/core/light.h"
+#include "prt/gl/gl_context.h"
+#include "prt/image/image_file.h"
+#include "runtime/render/picture_error.h"
 
 #include <functional>
 #include <optional>

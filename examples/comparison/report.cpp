@@ -2,8 +2,8 @@
 
 #include "report.h"
 
-#include "prt/receiver_colors.h"
-#include "prt/tone_map.h"
+#include "compress/study/receiver_colors.h"
+#include "prt/render/tone_map.h"
 
 #include <fmt/core.h>
 #include <glm/common.hpp>

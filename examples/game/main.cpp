@@ -3,16 +3,16 @@
 // rotates once during the given number of frames; the last frame is written as a picture. The sun is separate
 // from the sky: the game draws it with its own shadow map, and transfer lights the rest.
 
-#include "prt/cluster_lighting.h"
-#include "prt/light.h"
-#include "prt/dering.h"
-#include "prt/gl_context.h"
-#include "prt/gltf.h"
-#include "prt/image_file.h"
-#include "prt/scene.h"
-#include "prt/sh_rotation.h"
-#include "prt/shader_source.h"
-#include "prt/suns.h"
+#include "prt/core/cluster_lighting.h"
+#include "prt/core/dering.h"
+#include "prt/core/light.h"
+#include "prt/core/sh_rotation.h"
+#include "prt/fit/suns.h"
+#include "prt/gl/gl_context.h"
+#include "prt/gltf/gltf.h"
+#include "prt/gltf/scene.h"
+#include "prt/image/image_file.h"
+#include "prt/shader/shader_source.h"
 #include "shared_layout.h" // attribute locations of the shader
 
 #include <epoxy/gl.h>

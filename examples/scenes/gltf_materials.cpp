@@ -2,7 +2,7 @@
 
 #include "gltf_materials.h"
 
-#include "prt/image_file.h"
+#include "prt/image/image_file.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 // Writes example scenes and skies into a folder.
 
-#include "prt/image_file.h"
+#include "prt/image/image_file.h"
 #include "sky_image.h"
 #include "write_scene.h"
 

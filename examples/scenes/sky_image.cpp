@@ -2,7 +2,7 @@
 
 #include "sky_image.h"
 
-#include "prt/light.h"
+#include "prt/core/light.h"
 
 #include <glm/common.hpp>
 #include <glm/exponential.hpp>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "prt/environment.h"
+#include "prt/core/environment.h"
 
 namespace examples {
 

@@ -1,7 +1,7 @@
 // Argument checks and conversions of the C interface.
-#include "boundary.h"
+#include "runtime/c/boundary.h"
 
-#include "prt/sh.h"
+#include "prt/core/sh.h"
 
 #include <algorithm>
 #include <cmath>

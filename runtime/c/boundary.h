@@ -2,10 +2,10 @@
 
 // Boundary between C and C++: converts exceptions to statuses and messages, and checks pointers and numbers.
 
+#include "prt/core/error.h"
+#include "prt/core/transfer_layout.h"
 #include "prt/prt.h"
-#include "prt/shader_source.h"
-#include "prt/support/error.h"
-#include "prt/transfer_layout.h"
+#include "prt/shader/shader_source.h"
 
 #include <glm/vec3.hpp>
 

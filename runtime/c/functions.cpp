@@ -1,8 +1,8 @@
 // The C interface: spherical harmonics functions.
 
-#include "boundary.h"
-#include "prt/sh.h"
-#include "prt/sh_rotation.h"
+#include "prt/core/sh.h"
+#include "prt/core/sh_rotation.h"
+#include "runtime/c/boundary.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>

@@ -1,10 +1,10 @@
 // The C interface: instances that share transfer.
 
-#include "model.h"
+#include "runtime/c/model.h"
 
-#include "prt/shader_source.h"
-#include "prt/instances_gltf.h"
-#include "prt/support/counted.h"
+#include "prt/gltf/transfer_gltf.h"
+#include "prt/shader/shader_source.h"
+#include "runtime/support/counted.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>

@@ -1,13 +1,13 @@
 // The C interface: analytic lights, environment images, rotation and deringing.
 
-#include "boundary.h"
-#include "prt/environment.h"
-#include "prt/image_file.h"
-#include "prt/light.h"
-#include "prt/light_file.h"
-#include "prt/sh.h"
-#include "prt/sh_rotation.h"
-#include "prt/support/counted.h"
+#include "prt/core/environment.h"
+#include "prt/core/light.h"
+#include "prt/core/sh.h"
+#include "prt/core/sh_rotation.h"
+#include "prt/gltf/light_file.h"
+#include "prt/image/image_file.h"
+#include "runtime/c/boundary.h"
+#include "runtime/support/counted.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>

@@ -2,10 +2,10 @@
 
 // The model handle of the C interface.
 
-#include "boundary.h"
-#include "prt/cluster_lighting.h"
-#include "prt/gltf.h"
-#include "prt/instances.h"
+#include "prt/core/cluster_lighting.h"
+#include "prt/core/instances.h"
+#include "prt/gltf/gltf.h"
+#include "runtime/c/boundary.h"
 
 #include <optional>
 #include <string>

@@ -1,11 +1,11 @@
 // The C interface: volumes in files written by prt compress.
 
-#include "boundary.h"
-#include "prt/gltf.h"
-#include "prt/support/counted.h"
-#include "prt/instances_gltf.h"
-#include "prt/volume_relighter.h"
-#include "prt/shader_source.h"
+#include "prt/core/volume_relighter.h"
+#include "prt/gltf/gltf.h"
+#include "prt/gltf/transfer_gltf.h"
+#include "prt/shader/shader_source.h"
+#include "runtime/c/boundary.h"
+#include "runtime/support/counted.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>

@@ -1,10 +1,10 @@
 // Codes lobes as words: axis, profile and factor of each lobe of a vertex are chosen in turn against the
 // residual of the other lobes; then the profiles are refitted to the words.
 
-#include "lobe_profiles.h"
-#include "prt/sh.h"
-#include "prt/support/error.h"
-#include "prt/support/parallel.h"
+#include "prt/core/error.h"
+#include "prt/core/sh.h"
+#include "runtime/fit/lobe_profiles.h"
+#include "runtime/support/parallel.h"
 
 #include <algorithm>
 #include <cmath>

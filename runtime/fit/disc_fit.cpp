@@ -1,8 +1,8 @@
 // Fits a disc to texels by least squares (Ceres): seven parameters, including its center (two) and its
 // radius.
-#include "disc_fit.h"
+#include "runtime/fit/disc_fit.h"
 
-#include "across.h"
+#include "runtime/fit/across.h"
 
 #include <ceres/ceres.h>
 #include <glm/geometric.hpp>

@@ -2,7 +2,7 @@
 
 // Fits the outline of a sun's disc with subpixel precision.
 
-#include "spot.h"
+#include "runtime/fit/spot.h"
 
 namespace prt {
 

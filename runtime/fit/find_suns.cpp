@@ -1,13 +1,13 @@
 // Removes suns from an image one by one, strongest first, and after each refits the previous ones without it
 // (Hogbom 1974, "CLEAN"; docs/math.md, "Suns in an image").
-#include "prt/suns.h"
+#include "prt/fit/suns.h"
 
-#include "disc_fit.h"
-#include "prt/light.h"
-#include "prt/sh.h"
-#include "prt/support/error.h"
-#include "shadowed_light.h"
-#include "spot.h"
+#include "prt/core/error.h"
+#include "prt/core/light.h"
+#include "prt/core/sh.h"
+#include "runtime/fit/disc_fit.h"
+#include "runtime/fit/shadowed_light.h"
+#include "runtime/fit/spot.h"
 
 #include <algorithm>
 #include <cmath>

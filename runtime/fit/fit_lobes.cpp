@@ -1,14 +1,14 @@
 // Fits zonal lobes to one vertex by nonlinear least squares (Ceres): axes on the sphere, and a gain for each
 // band of each lobe. Sloan, Luna and Snyder 2005 minimise the same function with equal band weights.
 
-#include "prt/lobe_fit.h"
+#include "prt/fit/lobe_fit.h"
 
-#include "lobe_profiles.h"
-#include "lobe_start.h"
-#include "prt/sh.h"
-#include "prt/support/error.h"
-#include "prt/support/parallel.h"
-#include "sh_gradient.h"
+#include "prt/core/error.h"
+#include "prt/core/sh.h"
+#include "runtime/fit/lobe_profiles.h"
+#include "runtime/fit/lobe_start.h"
+#include "runtime/fit/sh_gradient.h"
+#include "runtime/support/parallel.h"
 
 #include <ceres/ceres.h>
 

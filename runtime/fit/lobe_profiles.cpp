@@ -1,9 +1,9 @@
 // Clusters lobe profiles by k-means on normalised shapes: gain-shape vector quantisation (Gersho and Gray,
 // "Vector quantization and signal compression", 1992, section 12.10).
 
-#include "lobe_profiles.h"
+#include "runtime/fit/lobe_profiles.h"
 
-#include "prt/sh.h"
+#include "prt/core/sh.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 // Clustering of lobes into a few profiles that all lobes of a model share.
 
-#include "prt/lobe_fit.h"
+#include "prt/fit/lobe_fit.h"
 
 #include <span>
 #include <vector>

@@ -1,9 +1,9 @@
 // Start values by matching pursuit over directions on the sphere (Mallat and Zhang 1993): the best profile
 // about an axis is the projection of the residual of each band onto the axis.
 
-#include "lobe_start.h"
+#include "runtime/fit/lobe_start.h"
 
-#include "prt/sh.h"
+#include "prt/core/sh.h"
 
 #include <glm/geometric.hpp>
 

@@ -2,7 +2,7 @@
 
 // Start values for the fit of a vertex's lobes.
 
-#include "prt/lobe_fit.h"
+#include "prt/fit/lobe_fit.h"
 
 #include <glm/vec3.hpp>
 

@@ -1,9 +1,9 @@
 // Computes the light of partially shadowed receivers from the cells of an image, and from coefficients.
-#include "shadowed_light.h"
+#include "runtime/fit/shadowed_light.h"
 
-#include "across.h"
-#include "gauss_points.h"
-#include "prt/sh.h"
+#include "prt/core/sh.h"
+#include "runtime/fit/across.h"
+#include "runtime/fit/gauss_points.h"
 
 #include <glm/geometric.hpp>
 

@@ -2,8 +2,8 @@
 
 // Benefit of separate suns: compares the exact light of shadowed receivers with the light from coefficients.
 
-#include "prt/suns.h"
-#include "sky_map.h"
+#include "prt/fit/suns.h"
+#include "runtime/fit/sky_map.h"
 
 #include <vector>
 

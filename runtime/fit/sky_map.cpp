@@ -1,8 +1,8 @@
 // Sorts texels into the cells of a cube, so that texels near a direction are found in any layout.
-#include "sky_map.h"
+#include "runtime/fit/sky_map.h"
 
-#include "prt/support/error.h"
-#include "prt/support/parallel.h"
+#include "prt/core/error.h"
+#include "runtime/support/parallel.h"
 
 #include <glm/geometric.hpp>
 

@@ -2,7 +2,7 @@
 
 // An environment map with lookup of texels near a direction.
 
-#include "texels.h"
+#include "runtime/fit/texels.h"
 
 #include <cstdint>
 #include <span>

@@ -1,7 +1,7 @@
 // Finds bright spots: the brightest texels of the cells, each grown to the region above half of its
 // brightness. The extent of a spot's light is found as in aperture photometry (Stetson 1987, "DAOPHOT") by
 // medians over rings, which are robust against a second sun in the ring.
-#include "spot.h"
+#include "runtime/fit/spot.h"
 
 #include <glm/geometric.hpp>
 

@@ -2,7 +2,7 @@
 
 // A bright spot of an image: its position, size and surrounding sky.
 
-#include "sky_map.h"
+#include "runtime/fit/sky_map.h"
 
 #include <optional>
 

@@ -1,7 +1,7 @@
 // Centers and solid angles of texels for each layout (docs/math.md, section 3).
-#include "texels.h"
+#include "runtime/fit/texels.h"
 
-#include "gauss_points.h"
+#include "runtime/fit/gauss_points.h"
 
 #include <algorithm>
 #include <cmath>

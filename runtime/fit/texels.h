@@ -2,7 +2,7 @@
 
 // Positions of the texels of an environment map on the sphere.
 
-#include "prt/environment.h"
+#include "prt/core/environment.h"
 
 #include <cstddef>
 #include <vector>

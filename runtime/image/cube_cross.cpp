@@ -1,5 +1,5 @@
 // Detects and unfolds cube maps stored as crosses or rows.
-#include "cube_cross.h"
+#include "runtime/image/cube_cross.h"
 
 #include <array>
 #include <cstddef>

@@ -2,7 +2,7 @@
 
 // Cube maps unfolded to a cross or a row.
 
-#include "prt/environment.h"
+#include "prt/core/environment.h"
 
 #include <optional>
 

@@ -1,13 +1,13 @@
 // Reads OpenEXR files: checks them first, then converts to linear Rec. 709 from any primaries.
-#include "exr.h"
+#include "runtime/image/exr.h"
 
-#include "exr_header.h"
-#include "exr_layers.h"
-#include "exr_stream.h"
-#include "image_limits.h"
-#include "prt/image_file.h"
-#include "prt/support/error.h"
-#include "prt/support/printable.h"
+#include "prt/core/error.h"
+#include "prt/image/image_file.h"
+#include "runtime/image/exr_header.h"
+#include "runtime/image/exr_layers.h"
+#include "runtime/image/exr_stream.h"
+#include "runtime/image/image_limits.h"
+#include "runtime/support/printable.h"
 
 #include <ImathBox.h>
 #include <ImathMatrix.h>

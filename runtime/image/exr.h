@@ -2,7 +2,7 @@
 
 // Reading of OpenEXR files.
 
-#include "prt/environment.h"
+#include "prt/core/environment.h"
 
 #include <cstddef>
 #include <optional>

@@ -1,11 +1,11 @@
 // Validates the headers of OpenEXR files before they are read.
-#include "exr_header.h"
+#include "runtime/image/exr_header.h"
 
-#include "image_limits.h"
-#include "prt/environment.h"
-#include "prt/support/counted.h"
-#include "prt/support/error.h"
-#include "prt/support/printable.h"
+#include "prt/core/environment.h"
+#include "prt/core/error.h"
+#include "runtime/image/image_limits.h"
+#include "runtime/support/counted.h"
+#include "runtime/support/printable.h"
 
 #include <OpenEXR/openexr.h>
 

@@ -1,8 +1,8 @@
 // Finds color channels by name ("OpenEXR: Technical Introduction", sections on layers and channel names).
-#include "exr_layers.h"
+#include "runtime/image/exr_layers.h"
 
-#include "prt/support/error.h"
-#include "prt/support/printable.h"
+#include "prt/core/error.h"
+#include "runtime/support/printable.h"
 
 #include <OpenEXR/ImfChannelList.h>
 

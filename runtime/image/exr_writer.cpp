@@ -1,9 +1,9 @@
 // Writes OpenEXR files, in memory first, because the library's own streams do not report when the last bytes
 // are lost.
-#include "exr_stream.h"
-#include "prt/image_file.h"
-#include "prt/support/error.h"
-#include "prt/support/file.h"
+#include "prt/core/error.h"
+#include "prt/image/image_file.h"
+#include "runtime/image/exr_stream.h"
+#include "runtime/support/file.h"
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>

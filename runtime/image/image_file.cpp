@@ -1,16 +1,16 @@
 // Reads images according to their file format.
-#include "prt/image_file.h"
+#include "prt/image/image_file.h"
 
-#include "cube_cross.h"
-#include "exr.h"
-#include "image_kind.h"
-#include "image_limits.h"
-#include "prt/image_size.h"
-#include "prt/support/error.h"
-#include "prt/support/file.h"
-#include "prt/support/lfs_pointer.h"
-#include "stb_images.h"
-#include "web_images.h"
+#include "prt/core/error.h"
+#include "runtime/image/cube_cross.h"
+#include "runtime/image/exr.h"
+#include "runtime/image/image_kind.h"
+#include "runtime/image/image_limits.h"
+#include "runtime/image/image_size.h"
+#include "runtime/image/stb_images.h"
+#include "runtime/image/web_images.h"
+#include "runtime/support/file.h"
+#include "runtime/support/lfs_pointer.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // Checks image sizes against memory limits.
-#include "image_limits.h"
+#include "runtime/image/image_limits.h"
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 
 #include <string>
 

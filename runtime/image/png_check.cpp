@@ -1,9 +1,9 @@
 // Validates PNG files before stb decodes them.
-#include "png_check.h"
+#include "runtime/image/png_check.h"
 
-#include "image_kind.h"
-#include "prt/support/error.h"
-#include "prt/support/printable.h"
+#include "prt/core/error.h"
+#include "runtime/image/image_kind.h"
+#include "runtime/support/printable.h"
 
 #include <zlib.h>
 

@@ -2,7 +2,7 @@
 
 // Validation of PNG files.
 
-#include "prt/image_size.h"
+#include "runtime/image/image_size.h"
 
 #include <cstddef>
 #include <span>

@@ -1,9 +1,9 @@
 // Writes PNG files by stb, compressed by zlib: the compressor of stb terminates the program if memory runs
 // out.
-#include "prt/image_file.h"
+#include "prt/image/image_file.h"
 
-#include "prt/support/error.h"
-#include "prt/support/file.h"
+#include "prt/core/error.h"
+#include "runtime/support/file.h"
 
 #include <zlib.h>
 

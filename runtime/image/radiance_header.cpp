@@ -1,10 +1,10 @@
 // Parses Radiance headers: G. Ward Larson, R. Shakespeare, "Rendering with Radiance", 1998; "Radiance File
 // Formats", section on pictures. Lines of text up to an empty one, then the resolution string, for example
 // "-Y 512 +X 1024".
-#include "radiance_header.h"
+#include "runtime/image/radiance_header.h"
 
-#include "prt/support/error.h"
-#include "prt/support/printable.h"
+#include "prt/core/error.h"
+#include "runtime/support/printable.h"
 
 #include <charconv>
 #include <cmath>

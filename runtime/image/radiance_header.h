@@ -2,7 +2,7 @@
 
 // The header of a Radiance picture (.hdr, .pic).
 
-#include "prt/image_size.h"
+#include "runtime/image/image_size.h"
 
 #include <glm/vec3.hpp>
 

@@ -1,5 +1,5 @@
 // Implements the transfer function of IEC 61966-2-1.
-#include "prt/image_file.h"
+#include "prt/image/image_file.h"
 
 #include <cmath>
 

@@ -1,13 +1,13 @@
 // Reads PNG, JPEG and Radiance HDR by stb. stb is compiled here with zeroed allocations: where it returns
 // memory that it never wrote, for example for a JPEG without a scan, the memory is zero.
-#include "stb_images.h"
+#include "runtime/image/stb_images.h"
 
-#include "image_kind.h"
-#include "image_limits.h"
-#include "png_check.h"
-#include "prt/support/error.h"
-#include "prt/support/printable.h"
-#include "radiance_header.h"
+#include "prt/core/error.h"
+#include "runtime/image/image_kind.h"
+#include "runtime/image/image_limits.h"
+#include "runtime/image/png_check.h"
+#include "runtime/image/radiance_header.h"
+#include "runtime/support/printable.h"
 
 #include <glm/mat3x3.hpp>
 

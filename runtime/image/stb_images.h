@@ -2,9 +2,9 @@
 
 // PNG, JPEG and Radiance HDR by stb.
 
-#include "prt/environment.h"
-#include "prt/image_file.h"
-#include "prt/image_size.h"
+#include "prt/core/environment.h"
+#include "prt/image/image_file.h"
+#include "runtime/image/image_size.h"
 
 #include <cstddef>
 #include <span>

@@ -1,9 +1,9 @@
 // Reads WebP and AVIF images.
-#include "web_images.h"
+#include "runtime/image/web_images.h"
 
-#include "image_limits.h"
-#include "prt/support/error.h"
-#include "prt/support/printable.h"
+#include "prt/core/error.h"
+#include "runtime/image/image_limits.h"
+#include "runtime/support/printable.h"
 
 #include <avif/avif.h>
 #include <webp/decode.h>

@@ -2,8 +2,8 @@
 
 // WebP and AVIF by libwebp and libavif.
 
-#include "prt/image_file.h"
-#include "prt/image_size.h"
+#include "prt/image/image_file.h"
+#include "runtime/image/image_size.h"
 
 #include <cstddef>
 #include <span>

@@ -1,12 +1,12 @@
 // Finds the weakest filter for which lighting is nowhere negative: a quadratic program in the factors of the
 // bands, with one constraint per direction and channel (docs/math.md, eq. 16 to 19).
 
-#include "prt/dering.h"
+#include "prt/core/dering.h"
 
-#include "light/finite_light.h"
-#include "light/radiance_grid.h"
-#include "prt/sh.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "prt/core/sh.h"
+#include "runtime/light/finite_light.h"
+#include "runtime/light/radiance_grid.h"
 
 #include <algorithm>
 #include <cmath>

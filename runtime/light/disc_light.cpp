@@ -1,12 +1,12 @@
 // Projects disc lights. Seen from the origin a disc fills an elliptic cone. About the axis of that cone its
 // coefficients are integrals of a smooth function over a quarter of an ellipse (docs/math.md, eq. 13).
 
-#include "light/finite_light.h"
-#include "prt/light.h"
-#include "prt/sh.h"
-#include "prt/sh_rotation.h"
-#include "prt/support/error.h"
-#include "sh/gauss_legendre.h"
+#include "prt/core/error.h"
+#include "prt/core/light.h"
+#include "prt/core/sh.h"
+#include "prt/core/sh_rotation.h"
+#include "runtime/light/finite_light.h"
+#include "runtime/sh/gauss_legendre.h"
 
 #include <glm/geometric.hpp>
 

@@ -1,8 +1,8 @@
 // Environment maps: checks, repair of pixels, and view directions of pixels.
-#include "prt/environment.h"
+#include "prt/core/environment.h"
 
-#include "prt/support/counted.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "runtime/support/counted.h"
 
 #include <glm/geometric.hpp>
 

@@ -2,8 +2,8 @@
 
 // Checks that lights are finite.
 
-#include "prt/light.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "prt/core/light.h"
 
 #include <algorithm>
 #include <cmath>

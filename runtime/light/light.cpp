@@ -1,12 +1,12 @@
 // Computes lights of simple shapes in closed form: zonal coefficients, rotated to the light's direction.
-#include "prt/light.h"
+#include "prt/core/light.h"
 
-#include "light/finite_light.h"
-#include "prt/check_light.h"
-#include "prt/dering.h"
-#include "prt/sh.h"
-#include "prt/sh_rotation.h"
-#include "prt/support/error.h"
+#include "prt/core/dering.h"
+#include "prt/core/error.h"
+#include "prt/core/sh.h"
+#include "prt/core/sh_rotation.h"
+#include "runtime/light/check_light.h"
+#include "runtime/light/finite_light.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>

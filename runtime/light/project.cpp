@@ -5,14 +5,14 @@
 // This costs 2N-1 instead of N² multiply-adds per pixel and channel. The pole of the image is +Y and that of
 // the basis is +Z; one exact rotation at the end converts between them.
 
-#include "light/projection.h"
-#include "prt/check_light.h"
-#include "prt/environment.h"
-#include "prt/sh.h"
-#include "prt/sh_rotation.h"
-#include "prt/support/parallel.h"
-#include "prt/support/vector_lanes.h"
-#include "sh/gauss_legendre.h"
+#include "prt/core/environment.h"
+#include "prt/core/sh.h"
+#include "prt/core/sh_rotation.h"
+#include "runtime/light/check_light.h"
+#include "runtime/light/projection.h"
+#include "runtime/sh/gauss_legendre.h"
+#include "runtime/support/parallel.h"
+#include "runtime/support/vector_lanes.h"
 
 #include <glm/geometric.hpp>
 

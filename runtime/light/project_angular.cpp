@@ -1,8 +1,8 @@
 // Projects angular maps (docs/math.md, section 3).
 
-#include "light/square_sums.h"
-#include "prt/sh.h"
-#include "sh/gauss_legendre.h"
+#include "prt/core/sh.h"
+#include "runtime/light/square_sums.h"
+#include "runtime/sh/gauss_legendre.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,7 +1,7 @@
 // Projects the faces of a cube.
 
-#include "light/square_sums.h"
-#include "sh/gauss_legendre.h"
+#include "runtime/light/square_sums.h"
+#include "runtime/sh/gauss_legendre.h"
 
 #include <glm/geometric.hpp>
 

@@ -2,8 +2,8 @@
 
 // Projection of environments in double, per layout. Arguments must be valid.
 
-#include "prt/environment.h"
-#include "prt/sh_basis.h"
+#include "prt/core/environment.h"
+#include "prt/core/sh_basis.h"
 
 #include <glm/vec3.hpp>
 

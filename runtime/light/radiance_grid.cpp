@@ -1,8 +1,8 @@
 // Evaluates a light on a grid of directions, and bounds its minimum between them.
-#include "light/radiance_grid.h"
+#include "runtime/light/radiance_grid.h"
 
-#include "prt/sh.h"
-#include "prt/support/vector_lanes.h"
+#include "prt/core/sh.h"
+#include "runtime/support/vector_lanes.h"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 
 // Lighting on a grid of directions that is fine enough to bound the values between them.
 
-#include "prt/light.h"
+#include "prt/core/light.h"
 
 #include <vector>
 

@@ -1,9 +1,9 @@
 // Converts lighting between prtkit, three.js, glTF and D3DX (docs/conventions.md).
-#include "prt/light.h"
+#include "prt/core/light.h"
 
-#include "light/finite_light.h"
-#include "prt/sh.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "prt/core/sh.h"
+#include "runtime/light/finite_light.h"
 
 #include <algorithm>
 #include <cmath>

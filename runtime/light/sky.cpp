@@ -1,9 +1,9 @@
 // Evaluates the clear sky of Preetham, Shirley and Smits (SIGGRAPH 1999), and projects it.
-#include "prt/light.h"
+#include "prt/core/light.h"
 
-#include "prt/sh.h"
-#include "prt/support/error.h"
-#include "sh/gauss_legendre.h"
+#include "prt/core/error.h"
+#include "prt/core/sh.h"
+#include "runtime/sh/gauss_legendre.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -1,8 +1,8 @@
 // Computes sums over square images; pixels that are mirrored in both axes share the basis values.
-#include "light/square_sums.h"
+#include "runtime/light/square_sums.h"
 
-#include "prt/sh.h"
-#include "prt/sh_rotation.h"
+#include "prt/core/sh.h"
+#include "prt/core/sh_rotation.h"
 
 #include <glm/geometric.hpp>
 

@@ -7,9 +7,9 @@
 // Four mirrored pixels are combined with their signs before the multiplication. A final rotation per face
 // maps to the world.
 
-#include "light/projection.h"
-#include "prt/support/parallel.h"
-#include "prt/support/vector_lanes.h"
+#include "runtime/light/projection.h"
+#include "runtime/support/parallel.h"
+#include "runtime/support/vector_lanes.h"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 // Computes suns as SH coefficients in closed form.
-#include "prt/light.h"
+#include "prt/core/light.h"
 
-#include "prt/sh.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "prt/core/sh.h"
 
 #include <array>
 #include <cmath>

@@ -1,7 +1,7 @@
 // Cameras: automatic placement, view directions and projection.
-#include "prt/camera.h"
+#include "prt/render/camera.h"
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -1,11 +1,11 @@
 // Computes FLIP and HDR-FLIP: filters pictures by the resolution of the eye, then compares colors, edges and
 // points.
 
-#include "prt/flip.h"
+#include "runtime/render/flip.h"
 
-#include "prt/light.h"
-#include "prt/support/error.h"
-#include "prt/support/parallel.h"
+#include "prt/core/error.h"
+#include "prt/core/light.h"
+#include "runtime/support/parallel.h"
 
 #include <glm/common.hpp>
 #include <glm/mat3x3.hpp>

@@ -1,10 +1,10 @@
 // Stores words of texels as PNG images.
 
-#include "prt/lightmap_file.h"
+#include "prt/render/lightmap_file.h"
 
-#include "prt/image_file.h"
-#include "prt/image_size.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "prt/image/image_file.h"
+#include "runtime/image/image_size.h"
 
 #include <algorithm>
 #include <cstring>

@@ -1,5 +1,5 @@
 // Samples lightmaps at surface points.
-#include "prt/lightmap_lookup.h"
+#include "runtime/render/lightmap_lookup.h"
 
 #include <algorithm>
 

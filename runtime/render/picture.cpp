@@ -1,5 +1,5 @@
 // Background and emission of pictures, for all renderers.
-#include "prt/picture.h"
+#include "prt/render/picture.h"
 
 #include <algorithm>
 #include <cmath>

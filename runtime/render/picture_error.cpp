@@ -1,10 +1,10 @@
 // Compares pictures with path-traced references.
 
-#include "prt/picture_error.h"
+#include "runtime/render/picture_error.h"
 
-#include "prt/light.h"
-#include "prt/error_measures.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "prt/core/error_measures.h"
+#include "prt/core/light.h"
 
 #include <glm/geometric.hpp>
 

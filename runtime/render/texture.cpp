@@ -1,9 +1,9 @@
 // Computes mip chains by a box filter, filters trilinearly, and loads the images that a scene needs.
-#include "prt/texture.h"
+#include "prt/render/texture.h"
 
-#include "prt/image_size.h"
-#include "prt/support/error.h"
-#include "prt/tone_map.h"
+#include "prt/core/error.h"
+#include "prt/render/tone_map.h"
+#include "runtime/image/image_size.h"
 
 #include <glm/common.hpp>
 

@@ -1,7 +1,7 @@
 // Tone mapping by the rational fit of Narkowicz (2016) to the ACES curve, and averaging of samples.
-#include "prt/tone_map.h"
+#include "prt/render/tone_map.h"
 
-#include "prt/light.h"
+#include "prt/core/light.h"
 
 #include <algorithm>
 #include <cmath>

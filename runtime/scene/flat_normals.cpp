@@ -1,7 +1,7 @@
 // Computes normals of triangles for vertices without normals.
-#include "flat_normals.h"
+#include "runtime/scene/flat_normals.h"
 
-#include "triangle_normal.h"
+#include "runtime/scene/triangle_normal.h"
 
 #include <algorithm>
 #include <array>

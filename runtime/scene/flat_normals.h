@@ -2,7 +2,7 @@
 
 // Flat normals for vertices without normals.
 
-#include "prt/scene.h"
+#include "prt/gltf/scene.h"
 
 namespace prt {
 

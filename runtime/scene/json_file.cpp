@@ -1,11 +1,11 @@
 // Reads JSON files and checks the types of members.
 
-#include "prt/json_file.h"
+#include "runtime/scene/json_file.h"
 
-#include "prt/support/counted.h"
-#include "prt/support/error.h"
-#include "prt/support/file.h"
-#include "prt/support/json_tree.h"
+#include "prt/core/error.h"
+#include "runtime/support/counted.h"
+#include "runtime/support/file.h"
+#include "runtime/support/json_tree.h"
 
 #include <glm/geometric.hpp>
 

@@ -1,11 +1,11 @@
 // Reads and writes light files of prt project (docs/format.md).
 
-#include "prt/light_file.h"
+#include "prt/gltf/light_file.h"
 
-#include "prt/check_light.h"
-#include "prt/json_file.h"
-#include "prt/sh.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "prt/core/sh.h"
+#include "runtime/light/check_light.h"
+#include "runtime/scene/json_file.h"
 
 #include <cmath>
 #include <numbers>

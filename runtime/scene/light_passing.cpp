@@ -1,7 +1,7 @@
 // Transmission properties of materials.
-#include "prt/light_passing.h"
+#include "runtime/scene/light_passing.h"
 
-#include "prt/light.h"
+#include "prt/core/light.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Collects the edges of a scene's triangles.
-#include "prt/mesh_edges.h"
+#include "runtime/scene/mesh_edges.h"
 
 namespace prt {
 

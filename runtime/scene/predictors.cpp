@@ -1,5 +1,5 @@
 // Computes predictor coordinates from normals and positions of vertices.
-#include "prt/predictors.h"
+#include "runtime/scene/predictors.h"
 
 namespace prt {
 

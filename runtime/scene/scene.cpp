@@ -1,7 +1,7 @@
 // Properties of a scene: areas, bounds and the hash of its receivers.
-#include "prt/scene.h"
+#include "prt/gltf/scene.h"
 
-#include "triangle_normal.h"
+#include "runtime/scene/triangle_normal.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

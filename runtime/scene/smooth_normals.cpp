@@ -1,9 +1,9 @@
 // Computes smooth normals for meshes without normals. Thürmer and Wüthrich, "Computing Vertex Normals from
 // Polygonal Facets", 1998: weights by angles.
 
-#include "smooth_normals.h"
+#include "runtime/scene/smooth_normals.h"
 
-#include "triangle_normal.h"
+#include "runtime/scene/triangle_normal.h"
 
 #include <glm/trigonometric.hpp>
 

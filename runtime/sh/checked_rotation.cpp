@@ -1,9 +1,9 @@
 // Rejects matrices that are not rotations, and orthonormalises the others.
-#include "sh/checked_rotation.h"
+#include "runtime/sh/checked_rotation.h"
 
-#include "prt/sh_rotation.h"
-#include "prt/support/error.h"
-#include "prt/support/vector_lanes.h"
+#include "prt/core/error.h"
+#include "prt/core/sh_rotation.h"
+#include "runtime/support/vector_lanes.h"
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>

@@ -1,5 +1,5 @@
 // Computes Gauss-Legendre nodes and weights by Newton's method on the recurrence of the Legendre polynomials.
-#include "sh/gauss_legendre.h"
+#include "runtime/sh/gauss_legendre.h"
 
 #include <cmath>
 #include <numbers>

@@ -5,7 +5,7 @@
 // Phys. Chem. 1996, 100, 6342, table 2 with the additions and corrections of 1998. Their basis has no
 // Condon-Shortley phase; the basis of prtkit differs by (-1)^m in rows and columns.
 
-#include "prt/sh_basis.h"
+#include "prt/core/sh_basis.h"
 
 #include <array>
 #include <cstddef>

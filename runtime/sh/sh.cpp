@@ -1,8 +1,8 @@
 // Evaluates the SH basis in one or many directions, the clamped-cosine lobe, and windows.
-#include "prt/sh.h"
+#include "prt/core/sh.h"
 
-#include "prt/support/error.h"
-#include "prt/support/vector_lanes.h"
+#include "prt/core/error.h"
+#include "runtime/support/vector_lanes.h"
 
 #include <algorithm>
 #include <array>

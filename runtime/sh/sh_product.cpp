@@ -1,10 +1,10 @@
 // Multiplies functions on the sphere at the nodes of a product quadrature: Gauss-Legendre in the cosine of
 // the polar angle, uniform in the azimuth. The nodes of one azimuth are the lanes of one vector.
 
-#include "prt/sh.h"
-#include "prt/support/vector_lanes.h"
-#include "sh/gauss_legendre.h"
-#include "sh/triple_product.h"
+#include "prt/core/sh.h"
+#include "runtime/sh/gauss_legendre.h"
+#include "runtime/sh/triple_product.h"
+#include "runtime/support/vector_lanes.h"
 
 #include <array>
 #include <cmath>

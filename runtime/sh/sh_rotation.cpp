@@ -1,13 +1,13 @@
 // Rotates SH: bands 1 and 2 directly, higher bands by rotations about z and by 90 degrees about x
 // (docs/math.md, eq. 4).
-#include "prt/sh_rotation.h"
+#include "prt/core/sh_rotation.h"
 
-#include "prt/sh.h"
-#include "prt/support/error.h"
-#include "prt/support/vector_lanes.h"
-#include "sh/checked_rotation.h"
-#include "sh/quarter_turn.h"
-#include "sh/sh_rotation_lanes.h"
+#include "prt/core/error.h"
+#include "prt/core/sh.h"
+#include "runtime/sh/checked_rotation.h"
+#include "runtime/sh/quarter_turn.h"
+#include "runtime/sh/sh_rotation_lanes.h"
+#include "runtime/support/vector_lanes.h"
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/matrix.hpp>

@@ -2,8 +2,8 @@
 
 // Rotation of bands 2 to 5 of one function in SIMD lanes.
 
-#include "prt/sh_rotation.h"
-#include "sh/quarter_turn.h"
+#include "prt/core/sh_rotation.h"
+#include "runtime/sh/quarter_turn.h"
 
 #include <cstddef>
 #include <cstring>

@@ -1,6 +1,5 @@
 // Evaluates SH vectors in directions.
-#include "prt/sh.h"
-
+#include "prt/core/sh.h"
 
 #include <array>
 

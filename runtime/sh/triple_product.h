@@ -3,7 +3,7 @@
 // Triple products ∫ Y_i Y_j Y_k over the sphere for the first three bands, at compile time: the functions are
 // polynomials in x, y, z, and monomials integrate in closed form.
 
-#include "prt/sh_basis.h"
+#include "prt/core/sh_basis.h"
 
 #include <array>
 #include <cstddef>

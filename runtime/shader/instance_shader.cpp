@@ -1,7 +1,7 @@
 // Builds the shaders of instances that share transfer.
-#include "prt/shader_source.h"
+#include "prt/shader/shader_source.h"
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 
 #include <algorithm>
 

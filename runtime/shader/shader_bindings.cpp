@@ -1,6 +1,6 @@
 // Lists the inputs of prt_relight.vert and prt_exit_radiance.glsl for a model.
 
-#include "prt/shader_source.h"
+#include "prt/shader/shader_source.h"
 
 #include "shared_layout.h"
 

@@ -1,10 +1,10 @@
 // Assembles shaders: version line, defines, and files with expanded includes.
 
-#include "prt/shader_source.h"
+#include "prt/shader/shader_source.h"
 
-#include "defines.h"
-#include "embedded_files.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "runtime/shader/defines.h"
+#include "runtime/shader/embedded_files.h"
 
 #include <algorithm>
 #include <set>

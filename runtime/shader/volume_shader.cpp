@@ -1,8 +1,8 @@
 // Builds the shaders of volumes.
-#include "prt/shader_source.h"
+#include "prt/shader/shader_source.h"
 
-#include "defines.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "runtime/shader/defines.h"
 
 namespace prt {
 

@@ -1,5 +1,5 @@
 // Formats messages of other libraries as one line.
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 
 #include <algorithm>
 

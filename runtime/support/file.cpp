@@ -1,8 +1,8 @@
 // Reads complete files.
-#include "prt/support/file.h"
+#include "runtime/support/file.h"
 
-#include "prt/support/error.h"
-#include "support/input_file.h"
+#include "prt/core/error.h"
+#include "runtime/support/input_file.h"
 
 namespace prt {
 

@@ -1,7 +1,7 @@
 // Reads regular files and pipes with limits on time and size.
-#include "support/input_file.h"
+#include "runtime/support/input_file.h"
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 
 #include <cerrno>
 #include <chrono>

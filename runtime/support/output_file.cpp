@@ -1,7 +1,7 @@
 // Writes files without a name, or under a hidden one, and names them when they are complete. No partial file
 // remains, however the process ends.
-#include "prt/support/error.h"
-#include "prt/support/file.h"
+#include "prt/core/error.h"
+#include "runtime/support/file.h"
 
 #include <array>
 #include <atomic>

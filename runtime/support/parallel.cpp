@@ -1,6 +1,6 @@
 // Splits a range over threads that live for one call. oneTBB would avoid the cost of starting them, but a
 // game that links the runtime would also link oneTBB, and have a second thread pool.
-#include "prt/support/parallel.h"
+#include "runtime/support/parallel.h"
 
 #include <algorithm>
 #include <atomic>

@@ -1,5 +1,5 @@
 // Escapes characters that affect a terminal.
-#include "prt/support/printable.h"
+#include "runtime/support/printable.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,5 +1,5 @@
 // Edges of meshes as lists of neighbours in compressed sparse rows.
-#include "prt/adjacency.h"
+#include "prt/core/adjacency.h"
 
 #include <algorithm>
 #include <cassert>

@@ -1,5 +1,5 @@
 // Names of bake settings in files and reports.
-#include "prt/baked_transfer.h"
+#include "prt/core/baked_transfer.h"
 
 namespace prt {
 

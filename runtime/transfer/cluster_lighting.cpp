@@ -1,7 +1,7 @@
 // Computes the constants of all clusters as the product of a matrix, blocked by 16 rows, with the lighting.
-#include "prt/cluster_lighting.h"
+#include "prt/core/cluster_lighting.h"
 
-#include "prt/support/vector_lanes.h"
+#include "runtime/support/vector_lanes.h"
 
 #include <algorithm>
 #include <array>

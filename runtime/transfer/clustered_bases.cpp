@@ -1,7 +1,7 @@
 // Bases of clusters: layout, sizes, and decoding of their rows.
-#include "prt/clustered_bases.h"
+#include "prt/core/clustered_bases.h"
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 
 #include <algorithm>
 #include <cassert>

@@ -1,8 +1,8 @@
 // Sizes of compressed transfer, and its exit radiance under a light.
-#include "prt/clustered_transfer.h"
+#include "prt/core/clustered_transfer.h"
 
-#include "prt/cluster_lighting.h"
-#include "transfer/packed_weights.h"
+#include "prt/core/cluster_lighting.h"
+#include "runtime/transfer/packed_weights.h"
 
 #include <algorithm>
 

@@ -1,8 +1,8 @@
 // Decodes transfer vectors from means, predictors and weighted basis directions: docs/math.md, eq. 20.
 
-#include "transfer/clustered_vectors.h"
+#include "runtime/transfer/clustered_vectors.h"
 
-#include "prt/support/parallel.h"
+#include "runtime/support/parallel.h"
 
 #include <algorithm>
 

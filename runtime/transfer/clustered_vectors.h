@@ -2,7 +2,7 @@
 
 // Decoding of compressed transfer to transfer vectors.
 
-#include "prt/clustered_transfer.h"
+#include "prt/core/clustered_transfer.h"
 
 #include <cstddef>
 #include <span>

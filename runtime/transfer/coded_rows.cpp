@@ -1,8 +1,8 @@
 // Codes rows of small integers (docs/format.md).
-#include "prt/clustered_bases.h"
+#include "prt/core/clustered_bases.h"
 
-#include "prt/support/error.h"
-#include "transfer/range_coder.h"
+#include "prt/core/error.h"
+#include "runtime/transfer/range_coder.h"
 
 #include <algorithm>
 #include <array>

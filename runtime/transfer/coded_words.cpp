@@ -1,11 +1,11 @@
 // Codes packed clusters and weights: prediction from neighbours, then entropy coding (docs/format.md).
-#include "prt/coded_words.h"
+#include "runtime/transfer/coded_words.h"
 
-#include "prt/clustered_transfer.h"
-#include "prt/support/error.h"
-#include "prt/support/parallel.h"
-#include "transfer/packed_weights.h"
-#include "transfer/rans.h"
+#include "prt/core/clustered_transfer.h"
+#include "prt/core/error.h"
+#include "runtime/support/parallel.h"
+#include "runtime/transfer/packed_weights.h"
+#include "runtime/transfer/rans.h"
 
 #include <algorithm>
 #include <bit>

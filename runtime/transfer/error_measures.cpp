@@ -1,8 +1,8 @@
 // The measures of docs/math.md, section 6: errors of transfer, and of exit radiance under a light.
-#include "prt/error_measures.h"
+#include "prt/core/error_measures.h"
 
-#include "prt/light.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "prt/core/light.h"
 
 #include <glm/geometric.hpp>
 

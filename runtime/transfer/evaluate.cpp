@@ -1,9 +1,9 @@
 // Computes exit radiance of every receiver from the constants, in SIMD registers (docs/math.md, eq. 29).
-#include "prt/clustered_transfer.h"
-#include "prt/support/parallel.h"
-#include "prt/support/vector_lanes.h"
-#include "transfer/evaluate_range.h"
-#include "transfer/packed_weights.h"
+#include "prt/core/clustered_transfer.h"
+#include "runtime/support/parallel.h"
+#include "runtime/support/vector_lanes.h"
+#include "runtime/transfer/evaluate_range.h"
+#include "runtime/transfer/packed_weights.h"
 
 #include <cassert>
 

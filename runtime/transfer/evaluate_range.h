@@ -2,7 +2,7 @@
 
 // Evaluation of compressed transfer for a range of receivers.
 
-#include "prt/clustered_transfer.h"
+#include "prt/core/clustered_transfer.h"
 
 namespace prt {
 

@@ -1,12 +1,12 @@
 // Modes of the lighting of instances (docs/math.md, section 22), and transfer under each mode.
 
-#include "prt/instances.h"
+#include "prt/core/instances.h"
 
-#include "prt/sh.h"
-#include "prt/support/error.h"
-#include "prt/support/parallel.h"
-#include "prt/support/vector_lanes.h"
-#include "sh/gauss_legendre.h"
+#include "prt/core/error.h"
+#include "prt/core/sh.h"
+#include "runtime/sh/gauss_legendre.h"
+#include "runtime/support/parallel.h"
+#include "runtime/support/vector_lanes.h"
 
 #include <glm/geometric.hpp>
 

@@ -1,11 +1,11 @@
 // Computes constants of instances: constants of each mode in each rotation, times the factors of the
 // instances with that rotation.
 
-#include "prt/instances.h"
+#include "prt/core/instances.h"
 
-#include "prt/support/counted.h"
-#include "prt/support/error.h"
-#include "prt/support/parallel.h"
+#include "prt/core/error.h"
+#include "runtime/support/counted.h"
+#include "runtime/support/parallel.h"
 
 #include <algorithm>
 #include <cassert>

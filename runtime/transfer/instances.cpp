@@ -1,8 +1,8 @@
 // Factors of instances: conversion to numbers, rotation, and grouping of rotations.
 
-#include "prt/instances.h"
+#include "prt/core/instances.h"
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

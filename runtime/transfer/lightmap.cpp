@@ -1,6 +1,6 @@
 // Neighbourhood of lightmap texels: edges, nearest receivers and bilinear samples.
 
-#include "prt/lightmap.h"
+#include "prt/core/lightmap.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
 // Computes radiance of texels tile by tile: two rows at a time stay in the cache until they and the row of
 // the next level are written.
 
-#include "prt/lightmap.h"
+#include "prt/core/lightmap.h"
 
-#include "prt/support/parallel.h"
-#include "transfer/evaluate_range.h"
-#include "transfer/texel_formats.h"
+#include "runtime/support/parallel.h"
+#include "runtime/transfer/evaluate_range.h"
+#include "runtime/transfer/texel_formats.h"
 
 #include <algorithm>
 #include <cassert>

@@ -1,9 +1,9 @@
 // Zonal lobes: coding of axes, rotation, and evaluation under light.
 
-#include "prt/lobes.h"
+#include "prt/core/lobes.h"
 
-#include "prt/sh.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "prt/core/sh.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -2,9 +2,9 @@
 // is the form factor of a sphere cut by the horizon (Snyder, Area light sources for real-time graphics,
 // 1996).
 
-#include "prt/occlusion_volume.h"
+#include "prt/core/occlusion_volume.h"
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -1,8 +1,8 @@
 // Reads, packs and unpacks the weights of receivers.
-#include "transfer/packed_weights.h"
+#include "runtime/transfer/packed_weights.h"
 
-#include "prt/clustered_transfer.h"
-#include "prt/support/error.h"
+#include "prt/core/clustered_transfer.h"
+#include "prt/core/error.h"
 
 #include <algorithm>
 #include <string>

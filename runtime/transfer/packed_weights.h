@@ -2,7 +2,7 @@
 
 // Extracts the weights of a receiver from its bytes.
 
-#include "prt/clustered_bases.h"
+#include "prt/core/clustered_bases.h"
 
 #include <cstddef>
 #include <cstdint>

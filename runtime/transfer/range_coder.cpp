@@ -1,5 +1,5 @@
 // Carry propagation and final bytes of the range coder.
-#include "transfer/range_coder.h"
+#include "runtime/transfer/range_coder.h"
 
 namespace prt {
 

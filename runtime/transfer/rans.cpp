@@ -1,5 +1,5 @@
 // Encodes rANS symbols, from the last to the first.
-#include "transfer/rans.h"
+#include "runtime/transfer/rans.h"
 
 #include <algorithm>
 

@@ -2,8 +2,8 @@
 
 // Conversion of radiance to texture formats, sixteen texels at a time.
 
-#include "prt/lightmap.h"
-#include "prt/support/vector_lanes.h"
+#include "prt/core/lightmap.h"
+#include "runtime/support/vector_lanes.h"
 
 #include <bit>
 #include <cstddef>

@@ -1,8 +1,8 @@
 // Exit radiance and visibility from raw transfer vectors.
-#include "prt/transfer.h"
+#include "prt/core/transfer.h"
 
-#include "prt/support/parallel.h"
-#include "prt/transfer_view.h"
+#include "prt/core/transfer_view.h"
+#include "runtime/support/parallel.h"
 
 #include <algorithm>
 

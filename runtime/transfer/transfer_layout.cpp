@@ -1,10 +1,10 @@
 // Layouts of transfer vectors, and the light of each term.
-#include "prt/transfer_layout.h"
+#include "prt/core/transfer_layout.h"
 
-#include "prt/sh.h"
-#include "prt/support/counted.h"
-#include "prt/support/error.h"
-#include "prt/support/printable.h"
+#include "prt/core/error.h"
+#include "prt/core/sh.h"
+#include "runtime/support/counted.h"
+#include "runtime/support/printable.h"
 
 #include <algorithm>
 #include <cassert>

@@ -1,8 +1,8 @@
 // Reads transfer vectors block by block from floats, float16 or clusters.
 
-#include "prt/transfer_view.h"
+#include "prt/core/transfer_view.h"
 
-#include "transfer/clustered_vectors.h"
+#include "runtime/transfer/clustered_vectors.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,12 +1,12 @@
 // The probes of a volume, their visibility, and lookup of the probes that light a position.
 
-#include "prt/transfer_volume.h"
+#include "prt/core/transfer_volume.h"
 
-#include "prt/cluster_lighting.h"
-#include "prt/sh.h"
-#include "prt/support/counted.h"
-#include "prt/support/error.h"
-#include "prt/volume_weights.h"
+#include "prt/core/cluster_lighting.h"
+#include "prt/core/error.h"
+#include "prt/core/sh.h"
+#include "runtime/support/counted.h"
+#include "runtime/transfer/volume_weights.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

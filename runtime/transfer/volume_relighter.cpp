@@ -1,12 +1,12 @@
 // Computes incident light of probes, one at a time: coefficients are summed in registers, rounded once, and
 // written to every brick that contains the probe.
 
-#include "prt/volume_relighter.h"
+#include "prt/core/volume_relighter.h"
 
-#include "prt/sh.h"
-#include "prt/support/parallel.h"
-#include "transfer/packed_weights.h"
-#include "transfer/texel_formats.h"
+#include "prt/core/sh.h"
+#include "runtime/support/parallel.h"
+#include "runtime/transfer/packed_weights.h"
+#include "runtime/transfer/texel_formats.h"
 
 #include <algorithm>
 #include <array>

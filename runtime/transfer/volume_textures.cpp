@@ -1,7 +1,7 @@
 // Builds the texture layouts of volumes for shaders.
-#include "prt/volume_relighter.h"
+#include "prt/core/volume_relighter.h"
 
-#include "prt/volume_weights.h"
+#include "runtime/transfer/volume_weights.h"
 
 #include <algorithm>
 

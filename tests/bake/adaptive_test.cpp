@@ -1,7 +1,7 @@
 // Tests bakes that choose the number of rays for a target error.
 
-#include "prt/bake.h"
-#include "prt/error_measures.h"
+#include "prt/bake/bake.h"
+#include "prt/core/error_measures.h"
 #include "support/scene_builder.h"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // Tests the options of bakes, their errors and their statistics.
 
-#include "prt/bake.h"
+#include "prt/bake/bake.h"
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 #include "support/scene_builder.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // Compares transfer with closed forms.
 
-#include "prt/bake.h"
-#include "prt/sh.h"
+#include "prt/bake/bake.h"
+#include "prt/core/sh.h"
 #include "support/quadrature.h"
 #include "support/scene_builder.h"
 #include "support/traced.h"

@@ -1,7 +1,7 @@
 // Errors that a bake reports, against closed forms.
 
-#include "prt/bake.h"
-#include "prt/sh_basis.h"
+#include "prt/bake/bake.h"
+#include "prt/core/sh_basis.h"
 #include "support/scene_builder.h"
 
 #include <glm/geometric.hpp>

@@ -1,8 +1,8 @@
 // Tests bakes of degenerate geometry and extreme scales.
 
-#include "prt/bake.h"
-#include "prt/sh.h"
-#include "scene/small_objects.h"
+#include "bake/scene/small_objects.h"
+#include "prt/bake/bake.h"
+#include "prt/core/sh.h"
 #include "support/scene_builder.h"
 #include "support/traced.h"
 

@@ -1,10 +1,10 @@
 // Light of lamps against closed forms: inverse squares, cones, discs, spheres, closed rooms.
 
-#include "prt/bake.h"
+#include "prt/bake/bake.h"
 
-#include "prt/support/error.h"
+#include "bake/trace/choose_lamps.h"
+#include "prt/core/error.h"
 #include "support/scene_builder.h"
-#include "trace/choose_lamps.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // Tests the direct term separate from the indirect one: the content of each, and that their sum is complete.
 
-#include "prt/bake.h"
+#include "prt/bake/bake.h"
 #include "support/scene_builder.h"
 
 #include <glm/geometric.hpp>

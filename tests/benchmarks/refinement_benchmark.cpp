@@ -2,9 +2,9 @@
 // light requires it, against repeated splits of all triangles into four. Evaluated at independent points.
 //   refinement_benchmark SCENE [TARGET [RAYS [LEVELS]]]
 
-#include "prt/bake.h"
-#include "prt/refine.h"
-#include "prt/surface_reference.h"
+#include "bake/reference/surface_reference.h"
+#include "prt/bake/bake.h"
+#include "prt/bake/refine.h"
 
 #include <glm/vec3.hpp>
 

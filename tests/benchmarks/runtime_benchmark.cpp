@@ -1,13 +1,13 @@
 // Measures the speed of the runtime library: runtime_benchmark [--benchmark_filter=REGEX]. Uses one thread
 // unless noted.
 
-#include "prt/cluster_lighting.h"
-#include "prt/dering.h"
-#include "prt/environment.h"
-#include "prt/lightmap.h"
-#include "prt/sh.h"
-#include "prt/sh_rotation.h"
-#include "prt/volume_relighter.h"
+#include "prt/core/cluster_lighting.h"
+#include "prt/core/dering.h"
+#include "prt/core/environment.h"
+#include "prt/core/lightmap.h"
+#include "prt/core/sh.h"
+#include "prt/core/sh_rotation.h"
+#include "prt/core/volume_relighter.h"
 
 #include <benchmark/benchmark.h>
 #include <glm/geometric.hpp>

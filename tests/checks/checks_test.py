@@ -22,8 +22,8 @@ def failures(check, files):
         return result.returncode, result.stdout.splitlines()
 
 
-HEADERS = {"runtime/include/prt/sh.h": "", "bake/include/prt/bake.h": "", "bake/scene/surfaces.h": "",
-           "compress/include/prt/compress.h": "", "runtime/sh/sh.cpp": "", "bake/pipeline/bake.cpp": "",
+HEADERS = {"runtime/include/prt/core/sh.h": "", "bake/include/prt/bake/bake.h": "", "bake/scene/surfaces.h": "",
+           "compress/include/prt/compress/compress.h": "", "runtime/sh/sh.cpp": "", "bake/pipeline/bake.cpp": "",
            "compress/pipeline/compress.cpp": ""}
 
 
@@ -33,29 +33,38 @@ class IncludeArrows(unittest.TestCase):
 
     def test_accept_allowed_includes(self):
         for path, include in [("runtime/sh/sh.cpp", "<glm/vec3.hpp>"), ("runtime/sh/sh.cpp", "<vector>"),
-                              ("bake/pipeline/bake.cpp", '"prt/sh.h"'), ("bake/pipeline/bake.cpp", '"scene/surfaces.h"'),
-                              ("cli/main.cpp", '"prt/compress.h"'), ("examples/viewer/a.cpp", '"prt/bake.h"')]:
+                              ("bake/pipeline/bake.cpp", '"prt/core/sh.h"'), ("bake/pipeline/bake.cpp", '"bake/scene/surfaces.h"'),
+                              ("cli/main.cpp", '"prt/compress/compress.h"'), ("examples/viewer/a.cpp", '"prt/bake/bake.h"')]:
             self.assertEqual(self.check(path, f"#include {include}\n"), (0, []))
 
     def test_reject_includes_in_the_wrong_direction(self):
-        for path, include in [("runtime/sh/sh.cpp", '"prt/bake.h"'), ("runtime/sh/sh.cpp", "<Eigen/Core>"),
-                              ("runtime/light/light.cpp", "<nlohmann/json.hpp>"), ("bake/pipeline/bake.cpp", '"prt/compress.h"'),
-                              ("compress/search.cpp", '"prt/bake.h"'), ("examples/viewer/a.cpp", '"scene/surfaces.h"'),
+        for path, include in [("runtime/sh/sh.cpp", '"prt/bake/bake.h"'), ("runtime/sh/sh.cpp", "<Eigen/Core>"),
+                              ("runtime/light/light.cpp", "<nlohmann/json.hpp>"), ("bake/pipeline/bake.cpp", '"prt/compress/compress.h"'),
+                              ("compress/search.cpp", '"prt/bake/bake.h"'), ("examples/game/a.cpp", '"bake/scene/surfaces.h"'),
                               ("bake/pipeline/bake.cpp", "<boost/any.hpp>")]:
             status, lines = self.check(path, f"#include {include}\n")
             self.assertEqual((status, len(lines)), (1, 1), (path, include))
 
     def test_reject_higher_layers(self):
-        self.assertEqual(self.check("bake/pipeline/bake.cpp", '#include "scene/surfaces.h"\n'), (0, []))
-        files = {**HEADERS, "bake/plan/plan.h": "", "bake/scene/rays.cpp": '#include "plan/plan.h"\n'}
+        self.assertEqual(self.check("bake/pipeline/bake.cpp", '#include "bake/scene/surfaces.h"\n'), (0, []))
+        files = {**HEADERS, "bake/plan/plan.h": "", "bake/scene/rays.cpp": '#include "bake/plan/plan.h"\n'}
         self.assertEqual(failures("include_arrows.py", files)[0], 1)
-        files = {**HEADERS, "bake/plan/plan.cpp": "", "bake/include/prt/plan.h": "", "bake/scene/rays.cpp": '#include "prt/plan.h"\n'}
+        files = {**HEADERS, "bake/plan/plan.cpp": "", "bake/include/prt/bake/plan.h": "", "bake/scene/rays.cpp": '#include "prt/bake/plan.h"\n'}
         self.assertEqual(failures("include_arrows.py", files)[0], 1)
 
+    def test_reject_private_and_unstable_headers_in_public_ones(self):
+        files = {**HEADERS, "bake/pipeline/a.h": "", "bake/include/prt/bake/bake.h": '#include "bake/pipeline/a.h"\n'}
+        self.assertEqual(failures("include_arrows.py", files)[0], 1)
+        stable = {"runtime/include/prt/core/sh.h": "// A. Stable.\n", "runtime/sh/light.cpp": "",
+                  "runtime/include/prt/core/light.h": '// B. Stable.\n#include "prt/core/sh.h"\n'}
+        self.assertEqual(failures("include_arrows.py", {**HEADERS, **stable}), (0, []))
+        stable["runtime/include/prt/core/sh.h"] = "// A. Experimental.\n"
+        self.assertEqual(failures("include_arrows.py", {**HEADERS, **stable})[0], 1)
+
     def test_reject_circles_of_folders(self):
-        files = {**HEADERS, "cli/a/a.h": '#include "b/b.h"\n', "cli/b/b.h": '#include "c/c.h"\n', "cli/c/c.h": ""}
+        files = {**HEADERS, "cli/a/a.h": '#include "cli/b/b.h"\n', "cli/b/b.h": '#include "cli/c/c.h"\n', "cli/c/c.h": ""}
         self.assertEqual(failures("include_arrows.py", files), (0, []))
-        files["cli/c/c.h"] = '#include "a/a.h"\n'
+        files["cli/c/c.h"] = '#include "cli/a/a.h"\n'
         status, lines = failures("include_arrows.py", files)
         self.assertEqual((status, lines), (1, ["cli/a, cli/b, cli/c: include each other in a circle"]))
 

@@ -5,7 +5,8 @@ include_arrows.py REPOSITORY
 Every source belongs to the part with the longest folder that contains it. It may include headers of its own part, and of
 the parts and packages in its row. Standard headers are always allowed. In a library with layers, a source may include
 headers of its own layer and of lower ones. No folders include each other in a circle. A public header belongs to the folder
-of the source with its name, in its part; HOMES lists the folders of public headers without such a source.
+of the source with its name, in its part; HOMES lists the folders of public headers without such a source. Stable
+public headers include stable ones only.
 """
 import pathlib
 import re
@@ -21,7 +22,7 @@ PARTS = {
     "c": ("runtime/c", "runtime shader image scene", "glm"),
     "render": ("runtime/render", "runtime image scene", "glm"),
     "gl": ("runtime/render/gl", "runtime scene render shader shaders", "glm epoxy glfw"),
-    "bake": ("bake", "runtime scene render shaders", "glm fmt embree Eigen stb"),
+    "bake": ("bake", "runtime scene render device tracers shaders", "glm fmt embree Eigen stb"),
     "device": ("bake/device", "runtime bake", "glm fmt vulkan"),
     "trace_gpu": ("bake/trace_gpu", "runtime scene bake device shaders", "glm embree"),
     "raster": ("bake/raster", "runtime scene gl bake trace_gpu shaders", "glm epoxy"),
@@ -29,15 +30,17 @@ PARTS = {
     "compress": ("compress", "runtime scene", "glm Eigen"),
     "compress_study": ("compress/study", "runtime scene compress", "glm Eigen"),
     "shaders": ("shaders", "", ""),
-    "report": ("cli/report", "runtime scene bake compress", "glm fmt nlohmann"),
-    "pipeline": ("cli/pipeline", "runtime shader fit image scene render gl bake compress report", "glm fmt nlohmann"),
-    "cli": ("cli", "runtime shader fit image scene render gl bake compress report pipeline", "glm fmt CLI nlohmann"),
+    "report": ("cli/report", "runtime scene bake compress compress_study", "glm fmt nlohmann"),
+    "pipeline": ("cli/pipeline", "runtime shader fit image scene render gl bake tracers compress compress_study report",
+                 "glm fmt nlohmann"),
+    "cli": ("cli", "runtime shader fit image scene render gl bake device compress compress_study report pipeline", "glm fmt CLI nlohmann"),
     "example_scenes": ("examples/scenes", "runtime image", "glm tinygltf"),
     "game": ("examples/game", "runtime shader fit image scene gl", "glm epoxy"),
-    "viewer": ("examples/viewer", "runtime fit image scene render gl shader bake compress",
+    # Applications of this repository, which may include private headers.
+    "viewer": ("examples/viewer", "runtime fit image scene render gl shader bake compress compress_study report pipeline",
                "glm fmt CLI nlohmann imgui glfw epoxy meshoptimizer"),
     # It measures pictures of the viewer.
-    "comparison": ("examples/comparison", "viewer runtime image scene render gl shader bake compress fit",
+    "comparison": ("examples/comparison", "viewer runtime image scene render gl shader bake compress compress_study fit",
                    "glm fmt CLI nlohmann epoxy"),
 }
 # Folders of libraries with layers, from the lowest to the highest.
@@ -50,22 +53,14 @@ LAYERS = {
 }
 # Folders of public headers without a source of their name: their names, by folder.
 HOMES = {
-    "bake/scene": "bake_options texels trace_scene tracer_choice",
-    "bake/device": "gpu_devices gpu_failure",
-    "bake/trace": "tracer",
-    "bake/tracers": "make_tracer",
-    "bake/refine": "sides",
+    "bake/scene": "bake_options texels",
     "bake/products/levels": "level_bake",
     "compress/clusters": "compress_trace",
-    "compress/study": "baselines receiver_colors sweep",
-    "runtime/light": "check_light",
-    "runtime/sh": "color sh_basis",
-    "runtime/support": "bits counted glm_layout json_tree lfs_pointer progress stopwatch tangent_frame vector_lanes version",
-    "runtime/transfer": "volume_weights",
+    "runtime/sh": "sh_basis",
+    "runtime/support": "glm_layout progress version",
     "runtime/c": "prt",
     "runtime/fit": "lobe_fit suns",
-    "runtime/image": "image_size",
-    "runtime/scene/gltf": "animation encode_glb gltf refinement stored_transfer unread",
+    "runtime/scene/gltf": "animation gltf refinement",
 }
 # Includes that are allowed although the table forbids them.
 EXCEPTIONS = {
@@ -99,8 +94,7 @@ class Headers:
     def __init__(self, root, files):
         self.files = set(files)
         self.roots = sorted({str(path.parent.relative_to(root)) for path in root.glob("**/include/prt") if "build" not in path.parts}
-                            | {"runtime", "bake", "compress", "cli", "shaders", "examples/viewer", "examples/comparison"}
-                            | {folder for folder, _, _ in PARTS.values()})
+                            | {"", "shaders", "examples/scenes", "examples/viewer", "examples/comparison"})
 
     def find(self, source, header):
         for folder in [str(pathlib.PurePosixPath(source).parent), *self.roots]:
@@ -154,6 +148,12 @@ def circles(includes):
             for folder, found in reached.items() if folder in found}
 
 
+def is_stable(root, path):
+    """Whether the opening comment of a public header states that its interface is stable."""
+    opening = (root / path).read_text(encoding="utf-8").partition("#include")[0]
+    return re.search(r"\bStable\.", opening) is not None
+
+
 def is_exception(source, header, target):
     return any(source.startswith(prefix) and allowed in (header.split("/")[-1], target) for prefix, allowed in EXCEPTIONS)
 
@@ -171,12 +171,14 @@ def violation(headers, source, quoted, header):
     path = headers.find(source, header)
     if path is None:
         return None  # generated by the build
+    if "/include/prt/" in source and "/include/prt/" not in path:
+        return f"public headers may include only public headers, not {path}"
     target = part_of(path)
     if target == part or is_exception(source, header, target):
         return None
     if target not in parts.split():
         return f"{part} may not include {target} ({path})"
-    if part.startswith(("example", "game", "viewer")) and "/include/prt/" not in path:
+    if part in ("example_scenes", "game") and "/include/prt/" not in path:
         return f"examples may include only public headers, not {path}"
     return None
 
@@ -199,6 +201,8 @@ def main():
             path = headers.find(source, header) if quote == '"' else None
             if path is None:
                 continue
+            if "/include/prt/" in source and is_stable(root, source) and not is_stable(root, path):
+                wrong.append(f"{source}: is stable, but includes {path}, which is not")
             folder, target = include_folder(source, files), include_folder(path, files)
             if None in (folder, target):
                 wrong.append(f"{source if folder is None else path}: HOMES does not list its folder")

@@ -2,8 +2,8 @@
 
 #include "demanding_file.h"
 #include "pipeline.h"
-#include "prt/gltf.h"
-#include "prt/image_file.h"
+#include "prt/gltf/gltf.h"
+#include "prt/image/image_file.h"
 
 #include <gtest/gtest.h>
 

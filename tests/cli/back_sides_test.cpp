@@ -1,10 +1,10 @@
 // Both sides of double-sided surfaces, from the command line to the file.
 
 #include "pipeline.h"
-#include "prt/encode_glb.h"
-#include "prt/gltf.h"
-#include "prt/levels.h"
-#include "prt/support/file.h"
+#include "prt/gltf/gltf.h"
+#include "prt/gltf/levels.h"
+#include "runtime/scene/gltf/encode_glb.h"
+#include "runtime/support/file.h"
 #include "support/glb_file.h"
 #include "support/scene_builder.h"
 

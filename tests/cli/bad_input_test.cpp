@@ -1,7 +1,7 @@
 // Bad input: one line on stderr, exit status 1, no output file.
 
 #include "program.h"
-#include "prt/image_file.h"
+#include "prt/image/image_file.h"
 #include "support/glb_file.h"
 #include "support/temporary_folder.h"
 

@@ -2,7 +2,7 @@
 // rejected by the schemas of docs/format.md. Valid files are accepted by both.
 
 #include "pipeline.h"
-#include "prt/image_file.h"
+#include "prt/image/image_file.h"
 #include "support/lightmap_model.h"
 #include "support/random_lightmap.h"
 

@@ -1,8 +1,8 @@
 // prt compress --fallback: other viewers have a lit picture, and prt has the one that it had.
 
 #include "pipeline.h"
-#include "prt/image_file.h"
-#include "prt/support/file.h"
+#include "prt/image/image_file.h"
+#include "runtime/support/file.h"
 #include "support/glb_file.h"
 #include "support/scene_builder.h"
 

@@ -1,7 +1,7 @@
 // Tests the experience of a first-time user: one helpful line, before any work starts.
 
 #include "program.h"
-#include "prt/image_file.h"
+#include "prt/image/image_file.h"
 #include "support/glb_file.h"
 #include "support/scene_builder.h"
 #include "support/temporary_folder.h"

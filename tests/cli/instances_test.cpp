@@ -2,9 +2,9 @@
 // and rejected input.
 
 #include "pipeline.h"
-#include "prt/instances_gltf.h"
-#include "prt/light.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "prt/core/light.h"
+#include "prt/gltf/transfer_gltf.h"
 #include "support/glb_file.h"
 
 #include <gtest/gtest.h>

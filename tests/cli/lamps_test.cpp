@@ -1,7 +1,7 @@
 // Tests lamps of a scene through the pipeline, from the file to lit vertices.
 
 #include "program.h"
-#include "prt/gltf.h"
+#include "prt/gltf/gltf.h"
 #include "support/glb_file.h"
 #include "support/lightmap_model.h"
 #include "support/scene_builder.h"

@@ -2,7 +2,7 @@
 // input.
 
 #include "pipeline.h"
-#include "prt/levels.h"
+#include "prt/gltf/levels.h"
 #include "support/level_file.h"
 #include "support/scene_builder.h"
 

@@ -1,8 +1,8 @@
 // Tests lightmaps through the program: baked, compressed, reported and drawn; and rejected input.
 
 #include "pipeline.h"
-#include "prt/image_file.h"
-#include "prt/lightmap_file.h"
+#include "prt/image/image_file.h"
+#include "prt/render/lightmap_file.h"
 #include "support/glb_file.h"
 #include "support/lightmap_model.h"
 #include "support/scene_builder.h"

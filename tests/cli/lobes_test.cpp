@@ -1,8 +1,8 @@
 // Tests prt lobes: transfer that rotates with a skin, and rejected input.
 
 #include "pipeline.h"
-#include "prt/image_file.h"
-#include "prt/instances_gltf.h"
+#include "prt/gltf/transfer_gltf.h"
+#include "prt/image/image_file.h"
 #include "support/glb_file.h"
 
 #include <glm/geometric.hpp>

@@ -1,8 +1,8 @@
 // Tests prt ao --occluders: occlusion by moving parts, and rejected input.
 
 #include "pipeline.h"
-#include "prt/gltf.h"
-#include "prt/instances_gltf.h"
+#include "prt/gltf/gltf.h"
+#include "prt/gltf/transfer_gltf.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // with control sequences, killed or cancelled runs.
 
 #include "program.h"
-#include "prt/image_file.h"
+#include "prt/image/image_file.h"
 #include "support/glb_file.h"
 #include "support/temporary_folder.h"
 

@@ -1,8 +1,8 @@
 // prt render --path-trace: closed forms, and the pictures of the demo against it.
 
 #include "pipeline.h"
-#include "prt/image_file.h"
-#include "prt/support/file.h"
+#include "prt/image/image_file.h"
+#include "runtime/support/file.h"
 #include "support/glb_file.h"
 #include "support/scene_builder.h"
 

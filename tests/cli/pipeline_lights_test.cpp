@@ -1,8 +1,8 @@
 // Tests light in the commands: images, light files, suns, exposure.
 
 #include "pipeline.h"
-#include "prt/image_file.h"
-#include "prt/support/file.h"
+#include "prt/image/image_file.h"
+#include "runtime/support/file.h"
 #include "support/glb_file.h"
 
 #include <glm/geometric.hpp>

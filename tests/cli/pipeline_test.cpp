@@ -2,8 +2,8 @@
 
 #include "demanding_file.h"
 #include "pipeline.h"
-#include "prt/image_file.h"
-#include "prt/support/file.h"
+#include "prt/image/image_file.h"
+#include "runtime/support/file.h"
 #include "support/glb_file.h"
 
 #include <glm/common.hpp>

@@ -1,8 +1,8 @@
 // Tests models with predictors through the program, and by decoders in other languages.
 
 #include "program.h"
-#include "prt/gltf.h"
-#include "prt/predictors.h"
+#include "prt/gltf/gltf.h"
+#include "runtime/scene/predictors.h"
 #include "support/glb_file.h"
 #include "support/predicted.h"
 #include "support/scene_builder.h"

@@ -1,8 +1,8 @@
 // Tests prt relight: compares radiance of vertices with closed forms and with the library.
 
 #include "program.h"
-#include "prt/gltf.h"
-#include "prt/image_file.h"
+#include "prt/gltf/gltf.h"
+#include "prt/image/image_file.h"
 #include "support/glb_file.h"
 #include "support/scene_builder.h"
 #include "support/temporary_folder.h"

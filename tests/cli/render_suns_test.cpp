@@ -1,7 +1,7 @@
 // Tests prt render under skies with suns: separate and combined suns, and the notices about them.
 
 #include "program.h"
-#include "prt/image_file.h"
+#include "prt/image/image_file.h"
 #include "support/glb_file.h"
 #include "support/scene_builder.h"
 #include "support/temporary_folder.h"

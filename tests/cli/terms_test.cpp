@@ -1,9 +1,9 @@
 // Tests transfer terms through the pipeline, from the bake to the shipped file.
 
 #include "program.h"
-#include "prt/error_measures.h"
-#include "prt/gltf.h"
-#include "prt/light.h"
+#include "prt/core/error_measures.h"
+#include "prt/core/light.h"
+#include "prt/gltf/gltf.h"
 #include "support/glb_file.h"
 #include "support/scene_builder.h"
 #include "support/temporary_folder.h"

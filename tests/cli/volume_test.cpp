@@ -1,9 +1,9 @@
 // Tests volumes through the program: baked, compressed, reported and evaluated; and rejected input.
 
 #include "pipeline.h"
-#include "prt/gltf.h"
-#include "prt/instances_gltf.h"
-#include "prt/volume_relighter.h"
+#include "prt/core/volume_relighter.h"
+#include "prt/gltf/gltf.h"
+#include "prt/gltf/transfer_gltf.h"
 #include "support/glb_file.h"
 #include "support/random_volume.h"
 #include "support/volume_model.h"

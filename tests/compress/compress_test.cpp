@@ -1,9 +1,9 @@
 // Tests the compressor: errors, sizes, edge cases and limits.
 
-#include "prt/compress.h"
+#include "prt/compress/compress.h"
 
-#include "prt/error_measures.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "prt/core/error_measures.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Tests enough receivers that points are stored in 16 bits, and seams are solved in stretches.
 
-#include "prt/compress.h"
-#include "tuning/tuning.h"
+#include "compress/tuning/tuning.h"
+#include "prt/compress/compress.h"
 
 #include <glm/gtc/packing.hpp>
 #include <gtest/gtest.h>

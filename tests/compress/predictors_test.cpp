@@ -1,12 +1,12 @@
 // Tests predictors from normals and positions: closed forms that clusters must find, and cases in which
 // predictors are useless.
 
-#include "prt/compress.h"
+#include "prt/compress/compress.h"
 
-#include "prt/error_measures.h"
-#include "prt/search.h"
-#include "prt/sh.h"
-#include "prt/support/error.h"
+#include "prt/compress/search.h"
+#include "prt/core/error.h"
+#include "prt/core/error_measures.h"
+#include "prt/core/sh.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

@@ -1,16 +1,16 @@
 // Tests the search for a compression within a budget.
 
-#include "prt/search.h"
+#include "prt/compress/search.h"
 
-#include "metric/light_family.h"
-#include "prt/baselines.h"
-#include "prt/error_measures.h"
-#include "prt/error_moments.h"
-#include "prt/jumps.h"
-#include "prt/standard_skies.h"
-#include "prt/support/error.h"
+#include "compress/metric/error_moments.h"
+#include "compress/metric/jumps.h"
+#include "compress/metric/light_family.h"
+#include "compress/metric/standard_skies.h"
+#include "compress/study/baselines.h"
+#include "prt/core/error.h"
+#include "prt/core/error_measures.h"
 
-#include "prt/sh.h"
+#include "prt/core/sh.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // Tests that the trace explains the result, and does not change it.
 
-#include "prt/search.h"
+#include "prt/compress/search.h"
 
 #include <gtest/gtest.h>
 

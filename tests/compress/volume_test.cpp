@@ -1,8 +1,8 @@
 // Volumes through the compressor.
 
-#include "prt/compress_volume.h"
-#include "prt/error_measures.h"
-#include "prt/support/error.h"
+#include "prt/compress/compress_volume.h"
+#include "prt/core/error.h"
+#include "prt/core/error_measures.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

@@ -1,11 +1,11 @@
 // Tests scenes as exporters write them: one small file for each deviation, named after exporter and
 // deviation, with the exact result.
-#include "prt/gltf.h"
+#include "prt/gltf/gltf.h"
 
-#include "prt/animation.h"
-#include "prt/encode_glb.h"
-#include "prt/support/error.h"
-#include "prt/support/json_tree.h"
+#include "prt/core/error.h"
+#include "prt/gltf/animation.h"
+#include "runtime/scene/gltf/encode_glb.h"
+#include "runtime/support/json_tree.h"
 #include "support/glb_file.h"
 #include "support/temporary_folder.h"
 

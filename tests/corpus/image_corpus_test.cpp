@@ -1,7 +1,7 @@
 // Tests environment maps as programs write them: one small file for each deviation, with the exact result.
-#include "prt/image_file.h"
+#include "prt/image/image_file.h"
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 #include "support/temporary_folder.h"
 
 #include <ImathBox.h>

@@ -2,7 +2,7 @@
 // run-length coded; PNG.
 #include "seeds.h"
 
-#include "prt/image_file.h"
+#include "prt/image/image_file.h"
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>

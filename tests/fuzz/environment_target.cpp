@@ -1,7 +1,7 @@
 // An environment map of any kind is read and projected: OpenEXR, Radiance HDR, PNG, JPEG.
 #include "input_file.h"
 
-#include "prt/image_file.h"
+#include "prt/image/image_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace prt;

@@ -2,7 +2,7 @@
 // elements, the rest is the data.
 #include "input_file.h"
 
-#include "prt/gltf.h"
+#include "prt/gltf/gltf.h"
 #include "support/glb_file.h"
 
 namespace prt::fuzz {

@@ -1,12 +1,12 @@
 // Seeds: models.
 #include "seeds.h"
 
-#include "prt/compress.h"
-#include "prt/fallback.h"
-#include "prt/gltf.h"
-#include "prt/image_file.h"
-#include "prt/instances_gltf.h"
-#include "prt/support/file.h"
+#include "prt/compress/compress.h"
+#include "prt/gltf/gltf.h"
+#include "prt/gltf/transfer_gltf.h"
+#include "prt/image/image_file.h"
+#include "runtime/scene/gltf/vertex_fallback.h"
+#include "runtime/support/file.h"
 #include "support/glb_file.h"
 #include "support/lightmap_model.h"
 #include "support/predicted.h"

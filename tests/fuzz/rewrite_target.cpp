@@ -3,8 +3,8 @@
 #include "input_file.h"
 #include "whole_model.h"
 
-#include "prt/reorder.h"
-#include "prt/support/file.h"
+#include "runtime/scene/gltf/reorder.h"
+#include "runtime/support/file.h"
 
 #include <algorithm>
 #include <numeric>

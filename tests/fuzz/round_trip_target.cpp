@@ -2,8 +2,8 @@
 // The first eight bytes select options, the rest is transfer, repeated.
 #include "input_file.h"
 
-#include "prt/compress.h"
-#include "prt/gltf.h"
+#include "prt/compress/compress.h"
+#include "prt/gltf/gltf.h"
 #include "support/glb_file.h"
 #include "support/scene_builder.h"
 

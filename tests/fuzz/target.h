@@ -3,7 +3,7 @@
 // Common code of the fuzz targets. A target ends in one of two ways: it rejects the input with an `Error`, or
 // its result is valid. Everything else is a finding: `expect` and any other exception end the process.
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 
 #include <algorithm>
 #include <cmath>

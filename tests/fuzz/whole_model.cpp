@@ -1,12 +1,12 @@
 // Reads a model as the program does and looks at everything that was read.
 #include "whole_model.h"
 
-#include "prt/cluster_lighting.h"
-#include "prt/light.h"
-#include "prt/lightmap_lookup.h"
-#include "prt/lightmap.h"
-#include "prt/instances_gltf.h"
-#include "prt/rigid_parts.h"
+#include "prt/core/cluster_lighting.h"
+#include "prt/core/light.h"
+#include "prt/core/lightmap.h"
+#include "prt/gltf/transfer_gltf.h"
+#include "runtime/render/lightmap_lookup.h"
+#include "runtime/scene/gltf/rigid_parts.h"
 #include "target.h"
 
 #include <glm/common.hpp>

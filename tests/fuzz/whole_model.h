@@ -1,7 +1,7 @@
 #pragma once
 
-#include "prt/gltf.h"
-#include "prt/lightmap_file.h"
+#include "prt/gltf/gltf.h"
+#include "prt/render/lightmap_file.h"
 
 #include <optional>
 

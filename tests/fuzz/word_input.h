@@ -2,7 +2,7 @@
 
 // Layout of the words in the first bytes of an input of `words`.
 
-#include "prt/coded_words.h"
+#include "runtime/transfer/coded_words.h"
 
 namespace prt::fuzz {
 

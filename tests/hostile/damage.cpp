@@ -2,7 +2,7 @@
 
 #include "damage.h"
 
-#include "prt/image_file.h"
+#include "prt/image/image_file.h"
 #include "support/lightmap_model.h"
 
 #include <array>

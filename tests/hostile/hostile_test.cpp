@@ -5,9 +5,9 @@
 #include "damage.h"
 #include "fuzz/target.h"
 #include "fuzz/whole_model.h"
-#include "prt/cluster_lighting.h"
+#include "prt/core/cluster_lighting.h"
 #include "prt/prt.h"
-#include "prt/shader_source.h"
+#include "prt/shader/shader_source.h"
 #include "shipped_files.h"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // The bare runtime: GLM and the standard library.
 
-#include "prt/cluster_lighting.h"
-#include "prt/sh.h"
-#include "prt/sh_rotation.h"
-#include "prt/light.h"
+#include "prt/core/cluster_lighting.h"
+#include "prt/core/light.h"
+#include "prt/core/sh.h"
+#include "prt/core/sh_rotation.h"
 
 #include <cmath>
 #include <cstdio>

@@ -1,11 +1,11 @@
 // Links every library, and checks that the runtime returns the known radiance of an open receiver under
 // uniform light 1.
 
-#include "prt/bake.h"
-#include "prt/clustered_transfer.h"
-#include "prt/compress.h"
-#include "prt/gl_context.h"
-#include "prt/sh.h"
+#include "prt/bake/bake.h"
+#include "prt/compress/compress.h"
+#include "prt/core/clustered_transfer.h"
+#include "prt/core/sh.h"
+#include "prt/gl/gl_context.h"
 
 #include <cmath>
 #include <cstdio>

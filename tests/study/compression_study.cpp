@@ -3,14 +3,14 @@
 // quantisation (Chen, Guan and Wang 2010).
 //      compression_study BAKED.glb [--lights SKY]... [--json FILE]
 
+#include "cli/report/sweep_report.h"
 #include "moving_basis_candidates.h"
-#include "prt/gltf.h"
-#include "prt/image_file.h"
-#include "prt/light.h"
-#include "prt/support/error.h"
-#include "prt/support/file.h"
-#include "report/sweep_report.h"
+#include "prt/core/error.h"
+#include "prt/core/light.h"
+#include "prt/gltf/gltf.h"
+#include "prt/image/image_file.h"
 #include "residual_vq.h"
+#include "runtime/support/file.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>

@@ -2,7 +2,7 @@
 
 #include "moving_basis.h"
 
-#include "prt/support/parallel.h"
+#include "runtime/support/parallel.h"
 
 #include <Eigen/Dense>
 

@@ -2,10 +2,10 @@
 
 #include "moving_basis_baseline.h"
 
-#include "metric/significance.h"
+#include "compress/metric/significance.h"
 #include "moving_basis_code.h"
-#include "prt/support/parallel.h"
 #include "rounded_frame.h"
+#include "runtime/support/parallel.h"
 
 #include <Eigen/Dense>
 

@@ -2,10 +2,10 @@
 
 // The moving basis as a baseline of the compressor, including its code size. Used only by the study.
 
-#include "prt/baselines.h"
-#include "prt/light_metric.h"
-#include "prt/receiver_surface.h"
-#include "prt/support/progress.h"
+#include "compress/study/baselines.h"
+#include "prt/compress/light_metric.h"
+#include "prt/compress/receiver_surface.h"
+#include "prt/core/progress.h"
 
 #include <cstddef>
 #include <limits>

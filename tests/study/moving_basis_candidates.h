@@ -2,7 +2,7 @@
 
 // A basis that moves, at the settings of the sweep.
 
-#include "prt/sweep.h"
+#include "compress/study/sweep.h"
 
 #include <vector>
 

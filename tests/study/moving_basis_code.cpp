@@ -2,8 +2,8 @@
 
 #include "moving_basis_code.h"
 
-#include "clusters/component_plan.h"
-#include "prt/support/parallel.h"
+#include "compress/clusters/component_plan.h"
+#include "runtime/support/parallel.h"
 
 #include <Eigen/Dense>
 

@@ -3,7 +3,7 @@
 
 #include "moving_basis_fit.h"
 
-#include "prt/support/parallel.h"
+#include "runtime/support/parallel.h"
 
 #include <Eigen/Dense>
 

@@ -3,7 +3,7 @@
 #include "moving_basis_baseline.h"
 #include "moving_basis_candidates.h"
 #include "moving_basis_code.h"
-#include "prt/error_measures.h"
+#include "prt/core/error_measures.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 
 // Residual vector quantisation, the best of general-purpose compressors of vectors, for the sweep.
 
-#include "prt/sweep.h"
+#include "compress/study/sweep.h"
 
 #include <cstdint>
 #include <vector>

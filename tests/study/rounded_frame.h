@@ -1,6 +1,6 @@
 #pragma once
 
-#include "metric/frame.h"
+#include "compress/metric/frame.h"
 
 namespace prt {
 

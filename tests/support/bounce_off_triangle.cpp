@@ -2,8 +2,8 @@
 
 #include "support/bounce_off_triangle.h"
 
-#include "prt/bake.h"
-#include "prt/image_file.h"
+#include "prt/bake/bake.h"
+#include "prt/image/image_file.h"
 #include "support/scene_builder.h"
 
 #include <glm/geometric.hpp>

@@ -3,7 +3,7 @@
 // Computes the light that one large triangle reflects onto a small receiver below it, by the baker and by an
 // independent quadrature.
 
-#include "prt/baked_transfer.h"
+#include "prt/core/baked_transfer.h"
 
 #include <array>
 #include <iosfwd>

@@ -3,7 +3,7 @@
 // Numbers that break careless arithmetic. Functions that get them must return finite results, or throw
 // `prt::Error`.
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 
 #include <gtest/gtest.h>
 

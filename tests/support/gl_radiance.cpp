@@ -2,11 +2,11 @@
 
 #include "support/gl_radiance.h"
 
-#include "prt/gl_objects.h"
-#include "prt/gl_scene.h"
-#include "prt/gl_transfer.h"
-#include "prt/lightmap_file.h"
-#include "prt/shader_source.h"
+#include "prt/render/lightmap_file.h"
+#include "prt/shader/shader_source.h"
+#include "runtime/render/gl/gl_objects.h"
+#include "runtime/render/gl/gl_scene.h"
+#include "runtime/render/gl/gl_transfer.h"
 #include "shared_layout.h"
 
 #include <epoxy/gl.h>

@@ -2,9 +2,9 @@
 
 // Radiance that shaders compute, read back from OpenGL.
 
-#include "prt/clustered_transfer.h"
-#include "prt/gl_context.h"
-#include "prt/lightmap.h"
+#include "prt/core/clustered_transfer.h"
+#include "prt/core/lightmap.h"
+#include "prt/gl/gl_context.h"
 
 #include <glm/vec3.hpp>
 

@@ -2,8 +2,8 @@
 
 // Small scenes that GPU bakes are held against CPU bakes on.
 
-#include "prt/scene.h"
-#include "prt/texture.h"
+#include "prt/gltf/scene.h"
+#include "prt/render/texture.h"
 
 #include <cstdint>
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "prt/light.h"
+#include "prt/core/light.h"
 
 #include <glm/geometric.hpp>
 

@@ -2,7 +2,7 @@
 
 #include "support/lightmap_model.h"
 
-#include "prt/encode_glb.h"
+#include "runtime/scene/gltf/encode_glb.h"
 #include "support/scene_builder.h"
 
 #include <string>

@@ -2,7 +2,7 @@
 
 // Small files that hold lightmaps.
 
-#include "prt/lightmap_file.h"
+#include "prt/render/lightmap_file.h"
 #include "support/glb_file.h"
 
 #include <cstddef>

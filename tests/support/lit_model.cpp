@@ -2,8 +2,8 @@
 
 #include "support/lit_model.h"
 
-#include "prt/gltf.h"
-#include "prt/support/file.h"
+#include "prt/gltf/gltf.h"
+#include "runtime/support/file.h"
 #include "support/glb_file.h"
 #include "support/temporary_folder.h"
 

@@ -2,7 +2,7 @@
 
 #include "support/painted_sky.h"
 
-#include "prt/support/parallel.h"
+#include "runtime/support/parallel.h"
 
 #include <glm/geometric.hpp>
 

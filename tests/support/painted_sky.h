@@ -2,7 +2,7 @@
 
 // Environment maps with discs; their light is known in closed form.
 
-#include "prt/environment.h"
+#include "prt/core/environment.h"
 
 #include <functional>
 #include <vector>

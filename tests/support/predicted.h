@@ -1,6 +1,6 @@
 #pragma once
 
-#include "prt/clustered_transfer.h"
+#include "prt/core/clustered_transfer.h"
 
 #include <random>
 #include <vector>

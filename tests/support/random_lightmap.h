@@ -1,6 +1,6 @@
 #pragma once
 
-#include "prt/lightmap.h"
+#include "prt/core/lightmap.h"
 
 #include <random>
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "prt/transfer_volume.h"
+#include "prt/core/transfer_volume.h"
 
 #include <random>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "prt/scene.h"
+#include "prt/gltf/scene.h"
 
 #include <functional>
 

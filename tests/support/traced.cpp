@@ -2,7 +2,7 @@
 
 #include "support/traced.h"
 
-#include "prt/make_tracer.h"
+#include "bake/tracers/make_tracer.h"
 
 namespace prt::test {
 

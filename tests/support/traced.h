@@ -2,8 +2,8 @@
 
 // Direct transfer by one tracer, as the baker would find it.
 
-#include "prt/trace_receivers.h"
-#include "prt/trace_scene.h"
+#include "bake/scene/trace_scene.h"
+#include "bake/trace/trace_receivers.h"
 
 namespace prt::test {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "device/vulkan_device.h"
+#include "bake/device/vulkan_device.h"
 
 #include <gtest/gtest.h>
 

@@ -2,15 +2,15 @@
 // instances in the whole scene. Light bounces between all of them; the light of an instance is its mesh's
 // light under its factors.
 
-#include "prt/instance_bake.h"
+#include "prt/bake/instance_bake.h"
 
-#include "pipeline/record.h"
-#include "plan/check_options.h"
-#include "plan/memory.h"
-#include "products/instances/instance_light.h"
-#include "prt/make_tracer.h"
-#include "prt/support/error.h"
-#include "prt/support/stopwatch.h"
+#include "bake/pipeline/record.h"
+#include "bake/plan/check_options.h"
+#include "bake/plan/memory.h"
+#include "bake/products/instances/instance_light.h"
+#include "bake/tracers/make_tracer.h"
+#include "prt/core/error.h"
+#include "runtime/support/stopwatch.h"
 
 #include <algorithm>
 #include <map>

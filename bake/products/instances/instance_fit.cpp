@@ -2,10 +2,10 @@
 // for each added mode a number per channel. Products of the samples' light with modes are computed before
 // those with positions.
 
-#include "products/instances/instance_fit.h"
+#include "bake/products/instances/instance_fit.h"
 
-#include "prt/light.h"
-#include "prt/sh_basis.h"
+#include "prt/core/light.h"
+#include "prt/core/sh_basis.h"
 
 #include <glm/geometric.hpp>
 

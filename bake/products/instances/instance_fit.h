@@ -2,8 +2,8 @@
 
 // Fits the factors of an instance to its samples by least squares.
 
-#include "products/instances/uniform_bound.h"
-#include "prt/instances.h"
+#include "bake/products/instances/uniform_bound.h"
+#include "prt/core/instances.h"
 
 #include <Eigen/Dense>
 

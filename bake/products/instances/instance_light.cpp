@@ -1,12 +1,12 @@
 // Propagates light between instances: light gathered at samples determines factors, and factors determine the
 // light at all vertices.
 
-#include "products/instances/instance_light.h"
+#include "bake/products/instances/instance_light.h"
 
-#include "pipeline/trace_gather.h"
-#include "prt/support/parallel.h"
-#include "prt/trace_receivers.h"
-#include "trace/sealed.h"
+#include "bake/pipeline/trace_gather.h"
+#include "bake/trace/sealed.h"
+#include "bake/trace/trace_receivers.h"
+#include "runtime/support/parallel.h"
 
 #include <glm/geometric.hpp>
 

@@ -2,12 +2,12 @@
 
 // Light of a scene in which instances are represented by samples.
 
-#include "products/instances/instance_fit.h"
-#include "products/instances/instance_receivers.h"
-#include "products/instances/uniform_bound.h"
-#include "prt/sh_rotation.h"
-#include "scene/refill.h"
-#include "trace/gather.h"
+#include "bake/products/instances/instance_fit.h"
+#include "bake/products/instances/instance_receivers.h"
+#include "bake/products/instances/uniform_bound.h"
+#include "bake/scene/refill.h"
+#include "bake/trace/gather.h"
+#include "prt/core/sh_rotation.h"
 
 #include <optional>
 #include <vector>

@@ -1,8 +1,8 @@
 // Chooses the samples of a mesh: each represents an equal share of its area, in the order of the vertices.
 
-#include "products/instances/instance_receivers.h"
+#include "bake/products/instances/instance_receivers.h"
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 
 #include <algorithm>
 #include <map>

@@ -2,9 +2,9 @@
 
 // Receivers of instances in a flat scene, their traced samples, and receivers that belong to no instance.
 
-#include "products/instances/instance_fit.h"
-#include "products/instances/shared_mesh_bake.h"
-#include "prt/instance_bake.h"
+#include "bake/products/instances/instance_fit.h"
+#include "bake/products/instances/shared_mesh_bake.h"
+#include "prt/bake/instance_bake.h"
 
 #include <cstdint>
 #include <vector>

@@ -1,12 +1,12 @@
 // Bakes a separate mesh on both sides of its surfaces.
 
-#include "products/instances/shared_mesh_bake.h"
+#include "bake/products/instances/shared_mesh_bake.h"
 
-#include "pipeline/direct_transfer.h"
-#include "pipeline/light_transport.h"
-#include "plan/transfer_terms.h"
-#include "prt/make_tracer.h"
-#include "prt/sh_basis.h"
+#include "bake/pipeline/direct_transfer.h"
+#include "bake/pipeline/light_transport.h"
+#include "bake/plan/transfer_terms.h"
+#include "bake/tracers/make_tracer.h"
+#include "prt/core/sh_basis.h"
 
 #include <algorithm>
 

@@ -2,9 +2,9 @@
 
 // Bakes an instanced mesh without surroundings.
 
-#include "plan/plan.h"
-#include "prt/instances.h"
-#include "prt/support/progress.h"
+#include "bake/plan/plan.h"
+#include "prt/core/instances.h"
+#include "prt/core/progress.h"
 
 #include <memory>
 #include <vector>

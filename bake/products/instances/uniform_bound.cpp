@@ -1,6 +1,6 @@
 // Evaluates exit radiance of instances under uniform light, and finds factors that exceed the bound.
 
-#include "products/instances/uniform_bound.h"
+#include "bake/products/instances/uniform_bound.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 // Prevents instances from emitting more light than they receive.
 
-#include "prt/instances.h"
+#include "prt/core/instances.h"
 
 #include <array>
 #include <span>

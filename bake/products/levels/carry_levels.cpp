@@ -1,9 +1,9 @@
 // Fits the transfer of level 0, as samples of a coarser level see it, to the vertices of that level.
 
-#include "products/levels/level_surface.h"
-#include "prt/support/stopwatch.h"
-#include "surface_fit/fit_solver.h"
-#include "surface_fit/smoothness_weights.h"
+#include "bake/products/levels/level_surface.h"
+#include "bake/surface_fit/fit_solver.h"
+#include "bake/surface_fit/smoothness_weights.h"
+#include "runtime/support/stopwatch.h"
 
 #include <algorithm>
 

@@ -1,8 +1,8 @@
 // Spreads samples over a coarser level and finds the point of level 0 that each of them shows.
 
-#include "products/levels/level_surface.h"
-#include "prt/support/error.h"
-#include "prt/support/parallel.h"
+#include "bake/products/levels/level_surface.h"
+#include "prt/core/error.h"
+#include "runtime/support/parallel.h"
 
 #include <fmt/core.h>
 #include <glm/geometric.hpp>

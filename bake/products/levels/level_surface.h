@@ -2,10 +2,10 @@
 
 // The surface of a coarser level, its samples, and the level 0 that it replaces.
 
-#include "products/levels/nearest_points.h"
-#include "prt/level_bake.h"
-#include "scene/scene_part.h"
-#include "surface_fit/surface_samples.h"
+#include "bake/products/levels/nearest_points.h"
+#include "bake/scene/scene_part.h"
+#include "bake/surface_fit/surface_samples.h"
+#include "prt/bake/level_bake.h"
 
 namespace prt {
 

@@ -1,6 +1,6 @@
 // Searches a hierarchy of triangles for the nearest points, and selects among them by normals.
 
-#include "products/levels/nearest_points.h"
+#include "bake/products/levels/nearest_points.h"
 
 #include <embree3/rtcore.h>
 #include <glm/common.hpp>

@@ -2,8 +2,8 @@
 
 // Finds the nearest point of a surface with a similar normal.
 
-#include "prt/receivers.h"
-#include "prt/trace_scene.h"
+#include "bake/scene/receivers.h"
+#include "bake/scene/trace_scene.h"
 
 #include <glm/vec3.hpp>
 

@@ -1,8 +1,8 @@
 // Bakes scenes in which coarser levels replace level 0.
 
-#include "products/levels/level_surface.h"
-#include "prt/support/error.h"
-#include "prt/support/stopwatch.h"
+#include "bake/products/levels/level_surface.h"
+#include "prt/core/error.h"
+#include "runtime/support/stopwatch.h"
 
 #include <algorithm>
 #include <set>

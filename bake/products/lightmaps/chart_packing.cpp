@@ -1,6 +1,6 @@
 // Packs rectangles by the skyline of stb_rect_pack.
 
-#include "products/lightmaps/chart_packing.h"
+#include "bake/products/lightmaps/chart_packing.h"
 
 // Its code is compiled here, with names that no other library shares.
 #pragma GCC diagnostic push

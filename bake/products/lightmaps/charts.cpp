@@ -1,8 +1,8 @@
 // Maps triangles to the texels of an atlas.
 
-#include "products/lightmaps/charts.h"
+#include "bake/products/lightmaps/charts.h"
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 
 #include <fmt/core.h>
 #include <glm/common.hpp>

@@ -2,7 +2,7 @@
 
 // Triangles of an atlas in texel coordinates.
 
-#include "prt/texels.h"
+#include "prt/bake/texels.h"
 
 #include <glm/vec2.hpp>
 

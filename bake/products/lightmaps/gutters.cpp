@@ -1,6 +1,6 @@
 // Fills texels without values from their neighbours.
 
-#include "products/lightmaps/gutters.h"
+#include "bake/products/lightmaps/gutters.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -2,7 +2,7 @@
 
 // Values of texels between charts.
 
-#include "prt/texels.h"
+#include "prt/bake/texels.h"
 
 #include <span>
 #include <vector>

@@ -1,14 +1,14 @@
 // Measures the texels of atlases, fills the texels between charts, and closes seams.
 
-#include "prt/ambient_occlusion.h"
+#include "prt/bake/ambient_occlusion.h"
 
-#include "plan/available_memory.h"
-#include "products/lightmaps/gutters.h"
-#include "products/lightmaps/seams.h"
-#include "products/lightmaps/texel_light.h"
-#include "products/occlusion/occlusion_scene.h"
-#include "prt/support/error.h"
-#include "prt/support/stopwatch.h"
+#include "bake/plan/available_memory.h"
+#include "bake/products/lightmaps/gutters.h"
+#include "bake/products/lightmaps/seams.h"
+#include "bake/products/lightmaps/texel_light.h"
+#include "bake/products/occlusion/occlusion_scene.h"
+#include "prt/core/error.h"
+#include "runtime/support/stopwatch.h"
 
 #include <fmt/core.h>
 

@@ -1,7 +1,7 @@
 // Decides which surfaces share a texture, and how large it is.
 
-#include "products/lightmaps/texel_samples.h"
-#include "prt/support/error.h"
+#include "bake/products/lightmaps/texel_samples.h"
+#include "prt/core/error.h"
 
 #include <fmt/core.h>
 #include <glm/geometric.hpp>

@@ -1,7 +1,7 @@
 // Finds the receivers that filters read on both sides of seams, for the compressor.
 
-#include "products/lightmaps/seams.h"
-#include "prt/lightmap_bake.h"
+#include "bake/products/lightmaps/seams.h"
+#include "prt/bake/lightmap_bake.h"
 
 #include <algorithm>
 

@@ -1,8 +1,8 @@
 // Finds seams by the positions and normals of edges, and closes them with a sparse least-squares problem.
 
-#include "products/lightmaps/seams.h"
+#include "bake/products/lightmaps/seams.h"
 
-#include "products/lightmaps/charts.h"
+#include "bake/products/lightmaps/charts.h"
 
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>

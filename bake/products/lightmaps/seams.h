@@ -2,7 +2,7 @@
 
 // Edges of surfaces whose two sides are at different positions of an atlas.
 
-#include "prt/texels.h"
+#include "prt/bake/texels.h"
 
 #include <glm/vec2.hpp>
 

@@ -1,8 +1,8 @@
 // Assigns an axis to every face, smooths borders of charts, and splits charts that overlap themselves.
 
-#include "products/lightmaps/surface_charts.h"
+#include "bake/products/lightmaps/surface_charts.h"
 
-#include "products/lightmaps/texel_samples.h"
+#include "bake/products/lightmaps/texel_samples.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

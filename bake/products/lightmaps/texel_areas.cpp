@@ -1,8 +1,8 @@
 // Computes the area of the surface that filters read from each texel.
 
-#include "products/lightmaps/texel_areas.h"
+#include "bake/products/lightmaps/texel_areas.h"
 
-#include "products/lightmaps/seams.h"
+#include "bake/products/lightmaps/seams.h"
 
 #include <algorithm>
 #include <cmath>

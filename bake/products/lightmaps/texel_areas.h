@@ -2,7 +2,7 @@
 
 // Areas of the surface that filters read from texels.
 
-#include "products/lightmaps/texel_positions.h"
+#include "bake/products/lightmaps/texel_positions.h"
 
 #include <span>
 #include <vector>

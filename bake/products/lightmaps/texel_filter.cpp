@@ -1,8 +1,8 @@
 // Treats texels as the vertices of a net over the surface.
 
-#include "products/lightmaps/texel_filter.h"
+#include "bake/products/lightmaps/texel_filter.h"
 
-#include "prt/sh_basis.h"
+#include "prt/core/sh_basis.h"
 
 #include <glm/geometric.hpp>
 

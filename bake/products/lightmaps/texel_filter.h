@@ -2,8 +2,8 @@
 
 // Light of texels without the noise of its rays.
 
-#include "products/lightmaps/texel_light.h"
-#include "surface_fit/noise_filter.h"
+#include "bake/products/lightmaps/texel_light.h"
+#include "bake/surface_fit/noise_filter.h"
 
 #include <cstdint>
 #include <span>

@@ -1,12 +1,12 @@
 // Traces the samples of texels layer by layer, some texels at a time.
 
-#include "products/lightmaps/texel_light.h"
+#include "bake/products/lightmaps/texel_light.h"
 
-#include "pipeline/trace_gather.h"
-#include "prt/sh_basis.h"
-#include "prt/trace_receivers.h"
-#include "trace/scrambles.h"
-#include "trace/sealed.h"
+#include "bake/pipeline/trace_gather.h"
+#include "bake/trace/scrambles.h"
+#include "bake/trace/sealed.h"
+#include "bake/trace/trace_receivers.h"
+#include "prt/core/sh_basis.h"
 
 #include <algorithm>
 #include <bit>

@@ -2,11 +2,11 @@
 
 // Transfer of texels.
 
-#include "products/lightmaps/texel_positions.h"
-#include "products/lightmaps/texel_transport.h"
-#include "prt/bake.h"
-#include "prt/tracer.h"
-#include "surface_fit/fit_noise.h"
+#include "bake/products/lightmaps/texel_positions.h"
+#include "bake/products/lightmaps/texel_transport.h"
+#include "bake/surface_fit/fit_noise.h"
+#include "bake/trace/tracer.h"
+#include "prt/bake/bake.h"
 
 #include <span>
 #include <vector>

@@ -1,8 +1,8 @@
 // Computes the positions of samples of texels, on the scene or on a finer model.
 
-#include "products/lightmaps/texel_positions.h"
+#include "bake/products/lightmaps/texel_positions.h"
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 
 #include <fmt/core.h>
 #include <glm/geometric.hpp>

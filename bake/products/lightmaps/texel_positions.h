@@ -2,9 +2,9 @@
 
 // Positions of samples of texels in space.
 
-#include "products/lightmaps/texel_samples.h"
-#include "prt/receivers.h"
-#include "prt/trace_scene.h"
+#include "bake/products/lightmaps/texel_samples.h"
+#include "bake/scene/receivers.h"
+#include "bake/scene/trace_scene.h"
 
 #include <atomic>
 #include <cstddef>

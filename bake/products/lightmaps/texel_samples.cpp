@@ -1,6 +1,6 @@
 // Rasterises charts by points within texels, and conservatively where these miss them.
 
-#include "products/lightmaps/texel_samples.h"
+#include "bake/products/lightmaps/texel_samples.h"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 
 // Samples of the texels of an atlas on surfaces.
 
-#include "products/lightmaps/charts.h"
+#include "bake/products/lightmaps/charts.h"
 
 #include <glm/vec2.hpp>
 

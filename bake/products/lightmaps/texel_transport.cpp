@@ -1,12 +1,12 @@
 // Gathers light from vertices of the traced scene. There are many texels, so rows are created and discarded
 // in blocks; bounces before the last one use only the rows of vertices.
 
-#include "products/lightmaps/texel_transport.h"
+#include "bake/products/lightmaps/texel_transport.h"
 
-#include "pipeline/lamps_of_plan.h"
-#include "plan/transfer_terms.h"
-#include "products/lightmaps/texel_samples.h"
-#include "prt/sh_basis.h"
+#include "bake/pipeline/lamps_of_plan.h"
+#include "bake/plan/transfer_terms.h"
+#include "bake/products/lightmaps/texel_samples.h"
+#include "prt/core/sh_basis.h"
 
 #include <algorithm>
 

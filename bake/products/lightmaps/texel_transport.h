@@ -2,9 +2,9 @@
 
 // Light of texels in addition to direct light of the sky: from surfaces after bounces, and from lamps.
 
-#include "pipeline/bounce_sources.h"
-#include "prt/tracer.h"
-#include "trace/gather.h"
+#include "bake/pipeline/bounce_sources.h"
+#include "bake/trace/gather.h"
+#include "bake/trace/tracer.h"
 
 #include <cstdint>
 #include <optional>

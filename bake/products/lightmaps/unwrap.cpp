@@ -1,10 +1,10 @@
 // Cuts surfaces into charts, packs them, and splits vertices at the ends of charts.
 
-#include "prt/unwrap.h"
+#include "bake/products/lightmaps/unwrap.h"
 
-#include "products/lightmaps/chart_packing.h"
-#include "products/lightmaps/surface_charts.h"
-#include "prt/support/error.h"
+#include "bake/products/lightmaps/chart_packing.h"
+#include "bake/products/lightmaps/surface_charts.h"
+#include "prt/core/error.h"
 
 #include <fmt/core.h>
 #include <glm/common.hpp>

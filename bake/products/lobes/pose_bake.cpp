@@ -1,9 +1,9 @@
 // Bakes poses, and averages them in the frames of the vertices.
 
-#include "prt/pose_bake.h"
+#include "prt/bake/pose_bake.h"
 
-#include "prt/support/error.h"
-#include "prt/support/parallel.h"
+#include "prt/core/error.h"
+#include "runtime/support/parallel.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 

@@ -1,7 +1,7 @@
 // Selects the times of poses.
 
-#include "prt/pose_bake.h"
-#include "prt/support/error.h"
+#include "prt/bake/pose_bake.h"
+#include "prt/core/error.h"
 
 namespace prt {
 namespace {

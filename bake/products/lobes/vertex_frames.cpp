@@ -1,8 +1,8 @@
 // Computes the rotations nearest to the matrices of vertices (Higham, "Computing the polar decomposition",
 // 1986, Newton's iteration).
 
-#include "prt/pose_bake.h"
-#include "prt/sh_rotation.h"
+#include "prt/bake/pose_bake.h"
+#include "prt/core/sh_rotation.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>

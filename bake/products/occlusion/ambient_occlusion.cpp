@@ -1,9 +1,9 @@
 // Reads transfer of order 2: band 0 is the amount of arriving light, band 1 its direction.
 
-#include "prt/ambient_occlusion.h"
+#include "prt/bake/ambient_occlusion.h"
 
-#include "products/occlusion/occlusion_scene.h"
-#include "prt/sh_basis.h"
+#include "bake/products/occlusion/occlusion_scene.h"
+#include "prt/core/sh_basis.h"
 
 #include <glm/geometric.hpp>
 

@@ -1,10 +1,10 @@
 // Integrates unoccluded directions times the cosine, band by band.
 
-#include "products/occlusion/blocked_by_rays.h"
+#include "bake/products/occlusion/blocked_by_rays.h"
 
-#include "prt/sh.h"
-#include "prt/sh_basis.h"
-#include "prt/volume_bake.h"
+#include "prt/bake/volume_bake.h"
+#include "prt/core/sh.h"
+#include "prt/core/sh_basis.h"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 
 // Share of the light of receivers near an object that the object blocks, by rays.
 
-#include "prt/ambient_occlusion.h"
+#include "prt/bake/ambient_occlusion.h"
 
 #include <glm/vec3.hpp>
 

@@ -1,7 +1,7 @@
 // Measures all occluders of a scene together on the floor below it.
 
-#include "products/occlusion/blocked_by_rays.h"
-#include "prt/ambient_occlusion.h"
+#include "bake/products/occlusion/blocked_by_rays.h"
+#include "prt/bake/ambient_occlusion.h"
 
 #include <glm/geometric.hpp>
 

@@ -1,13 +1,13 @@
 // Samples an object alone from points in its box, and fits a volume to the occlusion there.
 
-#include "prt/ambient_occlusion.h"
+#include "prt/bake/ambient_occlusion.h"
 
-#include "products/occlusion/blocked_by_rays.h"
-#include "products/occlusion/occluder_fit.h"
-#include "prt/sh_basis.h"
-#include "prt/support/error.h"
-#include "prt/volume_bake.h"
-#include "trace/scrambles.h"
+#include "bake/products/occlusion/blocked_by_rays.h"
+#include "bake/products/occlusion/occluder_fit.h"
+#include "bake/trace/scrambles.h"
+#include "prt/bake/volume_bake.h"
+#include "prt/core/error.h"
+#include "prt/core/sh_basis.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -1,6 +1,6 @@
 // Solves two least-squares problems with 512 unknowns each: for the blocked share, and for its direction.
 
-#include "products/occlusion/occluder_fit.h"
+#include "bake/products/occlusion/occluder_fit.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>

@@ -2,7 +2,7 @@
 
 // Fits the texels of an occlusion volume so that their interpolation matches the occlusion at points.
 
-#include "prt/occlusion_volume.h"
+#include "prt/core/occlusion_volume.h"
 
 #include <glm/vec3.hpp>
 

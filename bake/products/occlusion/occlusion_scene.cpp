@@ -1,10 +1,10 @@
 // Prepares a scene and a tracer for ambient occlusion.
 
-#include "products/occlusion/occlusion_scene.h"
+#include "bake/products/occlusion/occlusion_scene.h"
 
-#include "plan/check_options.h"
-#include "plan/plan.h"
-#include "prt/make_tracer.h"
+#include "bake/plan/check_options.h"
+#include "bake/plan/plan.h"
+#include "bake/tracers/make_tracer.h"
 
 namespace prt {
 namespace {

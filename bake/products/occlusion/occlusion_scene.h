@@ -2,8 +2,8 @@
 
 // A scene for ambient occlusion.
 
-#include "prt/ambient_occlusion.h"
-#include "prt/trace_scene.h"
+#include "bake/scene/trace_scene.h"
+#include "prt/bake/ambient_occlusion.h"
 
 #include <memory>
 #include <string>

@@ -1,6 +1,6 @@
 // Evaluates errors between probes under assumed skies and lamps.
 
-#include "products/volumes/light_error.h"
+#include "bake/products/volumes/light_error.h"
 
 #include <cmath>
 

@@ -2,9 +2,9 @@
 
 // Error of the interpolation between probes, relative to measured light.
 
-#include "products/volumes/probe_states.h"
-#include "products/volumes/probe_tracer.h"
-#include "products/volumes/refine_bricks.h"
+#include "bake/products/volumes/probe_states.h"
+#include "bake/products/volumes/probe_tracer.h"
+#include "bake/products/volumes/refine_bricks.h"
 
 #include <array>
 #include <span>

@@ -1,8 +1,8 @@
 // Vectorised sums of outer products.
 
-#include "products/volumes/outer_sums.h"
+#include "bake/products/volumes/outer_sums.h"
 
-#include "prt/support/vector_lanes.h"
+#include "runtime/support/vector_lanes.h"
 
 namespace prt {
 namespace {

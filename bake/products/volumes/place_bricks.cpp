@@ -1,9 +1,9 @@
 // Covers the box of the volume with bricks of the coarsest level, and splits those near surfaces, down to the
 // finest level.
 
-#include "products/volumes/place_bricks.h"
+#include "bake/products/volumes/place_bricks.h"
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 
 #include <fmt/core.h>
 #include <glm/common.hpp>

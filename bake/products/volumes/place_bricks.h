@@ -2,8 +2,8 @@
 
 // Places the bricks of a volume: fine ones at surfaces, coarse ones in free space.
 
-#include "prt/scene.h"
-#include "prt/volume_bake.h"
+#include "prt/bake/volume_bake.h"
+#include "prt/gltf/scene.h"
 
 #include <cstddef>
 

@@ -1,11 +1,11 @@
 // Fits probes to measured points by preconditioned conjugate gradients, with many columns in parallel.
 
-#include "products/volumes/probe_fit.h"
+#include "bake/products/volumes/probe_fit.h"
 
-#include "prt/support/parallel.h"
-#include "prt/support/vector_lanes.h"
-#include "prt/volume_weights.h"
-#include "trace/sparse_rows.h"
+#include "bake/trace/sparse_rows.h"
+#include "runtime/support/parallel.h"
+#include "runtime/support/vector_lanes.h"
+#include "runtime/transfer/volume_weights.h"
 
 #include <algorithm>
 #include <array>

@@ -2,8 +2,8 @@
 
 // Fits probes so that their interpolation matches light measured between them (docs/math.md, section 19).
 
-#include "prt/support/progress.h"
-#include "prt/transfer_volume.h"
+#include "prt/core/progress.h"
+#include "prt/core/transfer_volume.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,9 +1,9 @@
 // Moves probes off the surfaces that they are too near to.
 
-#include "products/volumes/probe_positions.h"
+#include "bake/products/volumes/probe_positions.h"
 
-#include "prt/support/parallel.h"
-#include "scene/lit_side.h"
+#include "bake/scene/lit_side.h"
+#include "runtime/support/parallel.h"
 
 #include <glm/geometric.hpp>
 

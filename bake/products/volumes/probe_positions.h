@@ -2,8 +2,8 @@
 
 // Positions at which probes are measured: slightly off the surfaces at their corners, on the front side.
 
-#include "products/volumes/probe_tracer.h"
-#include "prt/trace_scene.h"
+#include "bake/products/volumes/probe_tracer.h"
+#include "bake/scene/trace_scene.h"
 
 #include <glm/vec3.hpp>
 

@@ -1,8 +1,8 @@
 // Measures new probes, and reuses the measurements of existing ones.
 
-#include "products/volumes/probe_states.h"
+#include "bake/products/volumes/probe_states.h"
 
-#include "products/volumes/probe_positions.h"
+#include "bake/products/volumes/probe_positions.h"
 
 #include <algorithm>
 #include <map>

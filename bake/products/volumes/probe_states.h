@@ -2,10 +2,10 @@
 
 // Measured probes. Probes that also exist in a finer grid are not measured again.
 
-#include "products/volumes/probe_fit.h"
-#include "products/volumes/probe_tracer.h"
-#include "prt/trace_scene.h"
-#include "prt/transfer_volume.h"
+#include "bake/products/volumes/probe_fit.h"
+#include "bake/products/volumes/probe_tracer.h"
+#include "bake/scene/trace_scene.h"
+#include "prt/core/transfer_volume.h"
 
 #include <array>
 #include <cstddef>

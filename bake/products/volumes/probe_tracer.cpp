@@ -2,18 +2,18 @@
 // uniform over the sphere, with density (|x| + |y| + |z|) / 6 pi, and every tracer can trace them. Light from
 // unoccluded directions is the integral over the sphere minus the blocked part, as for receivers on surfaces.
 
-#include "products/volumes/probe_tracer.h"
+#include "bake/products/volumes/probe_tracer.h"
 
-#include "products/volumes/outer_sums.h"
-#include "products/volumes/visibility.h"
-#include "prt/sh.h"
-#include "prt/support/parallel.h"
-#include "prt/support/tangent_frame.h"
-#include "prt/support/vector_lanes.h"
-#include "prt/trace_receivers.h"
-#include "trace/chunk_kernels.h"
-#include "trace/gather.h"
-#include "trace/lamp_light.h"
+#include "bake/products/volumes/outer_sums.h"
+#include "bake/products/volumes/visibility.h"
+#include "bake/trace/chunk_kernels.h"
+#include "bake/trace/gather.h"
+#include "bake/trace/lamp_light.h"
+#include "bake/trace/trace_receivers.h"
+#include "prt/core/sh.h"
+#include "runtime/support/parallel.h"
+#include "runtime/support/tangent_frame.h"
+#include "runtime/support/vector_lanes.h"
 
 #include <glm/geometric.hpp>
 

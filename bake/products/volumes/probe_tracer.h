@@ -2,12 +2,12 @@
 
 // Computes incident light at positions in free space, with the rays of any tracer.
 
-#include "pipeline/bounce_sources.h"
-#include "plan/plan.h"
-#include "prt/tracer.h"
-#include "prt/transfer_volume.h"
-#include "trace/lamp_rays.h"
-#include "trace/sample_sequence.h"
+#include "bake/pipeline/bounce_sources.h"
+#include "bake/plan/plan.h"
+#include "bake/trace/lamp_rays.h"
+#include "bake/trace/sample_sequence.h"
+#include "bake/trace/tracer.h"
+#include "prt/core/transfer_volume.h"
 
 #include <glm/vec3.hpp>
 

@@ -1,6 +1,6 @@
 // Chooses bricks to split, and changes the levels of a grid.
 
-#include "products/volumes/refine_bricks.h"
+#include "bake/products/volumes/refine_bricks.h"
 
 #include <algorithm>
 #include <cmath>

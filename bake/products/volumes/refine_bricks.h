@@ -2,7 +2,7 @@
 
 // Splits bricks where light between their probes has errors.
 
-#include "prt/transfer_volume.h"
+#include "prt/core/transfer_volume.h"
 
 #include <array>
 #include <cstddef>

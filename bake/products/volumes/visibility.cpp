@@ -1,6 +1,6 @@
 // Finds visibility distances of probes from the hits of their rays.
 
-#include "products/volumes/visibility.h"
+#include "bake/products/volumes/visibility.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -1,25 +1,25 @@
 // Bakes probes: light bounces between vertices, then light is measured at probes and at points between them,
 // and probes are fitted so that interpolation matches the points.
 
-#include "prt/volume_bake.h"
+#include "prt/bake/volume_bake.h"
 
-#include "pipeline/record.h"
-#include "plan/available_memory.h"
-#include "plan/check_options.h"
-#include "plan/memory.h"
-#include "plan/transfer_terms.h"
-#include "products/volumes/light_error.h"
-#include "products/volumes/place_bricks.h"
-#include "products/volumes/probe_fit.h"
-#include "products/volumes/probe_states.h"
-#include "products/volumes/probe_tracer.h"
-#include "products/volumes/refine_bricks.h"
-#include "prt/error_measures.h"
-#include "prt/make_tracer.h"
-#include "prt/support/error.h"
-#include "prt/support/parallel.h"
-#include "prt/support/stopwatch.h"
-#include "trace/scrambles.h"
+#include "bake/pipeline/record.h"
+#include "bake/plan/available_memory.h"
+#include "bake/plan/check_options.h"
+#include "bake/plan/memory.h"
+#include "bake/plan/transfer_terms.h"
+#include "bake/products/volumes/light_error.h"
+#include "bake/products/volumes/place_bricks.h"
+#include "bake/products/volumes/probe_fit.h"
+#include "bake/products/volumes/probe_states.h"
+#include "bake/products/volumes/probe_tracer.h"
+#include "bake/products/volumes/refine_bricks.h"
+#include "bake/trace/scrambles.h"
+#include "bake/tracers/make_tracer.h"
+#include "prt/core/error.h"
+#include "prt/core/error_measures.h"
+#include "runtime/support/parallel.h"
+#include "runtime/support/stopwatch.h"
 
 #include <fmt/core.h>
 

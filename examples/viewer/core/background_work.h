@@ -3,7 +3,7 @@
 // Runs work in a background thread. The work posts its findings; the drawing thread collects them between
 // frames.
 
-#include "prt/support/progress.h"
+#include "prt/core/progress.h"
 
 #include <functional>
 #include <memory>

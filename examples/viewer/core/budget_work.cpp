@@ -2,14 +2,14 @@
 
 #include "core/budget_work.h"
 
-#include "prt/bake.h"
-#include "prt/dering.h"
-#include "prt/receiver_colors.h"
-#include "prt/repeated_bake.h"
-#include "prt/sh.h"
-#include "prt/bake_options.h"
-#include "prt/support/error.h"
-#include "prt/support/parallel.h"
+#include "bake/studies/repeated_bake.h"
+#include "compress/study/receiver_colors.h"
+#include "prt/bake/bake.h"
+#include "prt/bake/bake_options.h"
+#include "prt/core/dering.h"
+#include "prt/core/error.h"
+#include "prt/core/sh.h"
+#include "runtime/support/parallel.h"
 
 #include <glm/geometric.hpp>
 

@@ -4,8 +4,8 @@
 
 #include "core/texel_light.h"
 
-#include "prt/sh.h"
-#include "prt/tone_map.h"
+#include "prt/core/sh.h"
+#include "prt/render/tone_map.h"
 
 #include <algorithm>
 

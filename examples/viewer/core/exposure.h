@@ -5,7 +5,7 @@
 #include "core/document.h"
 #include "pictures/lamps.h"
 
-#include "prt/light_meter.h"
+#include "bake/reference/light_meter.h"
 
 #include <cmath>
 #include <functional>

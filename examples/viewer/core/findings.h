@@ -7,11 +7,11 @@
 #include "pictures/model.h"
 #include "pictures/picture_kind.h"
 
-#include "prt/animation.h"
-#include "prt/error_budget.h"
-#include "prt/lobes.h"
-#include "prt/instances_gltf.h"
-#include "prt/transfer_volume.h"
+#include "bake/studies/error_budget.h"
+#include "prt/core/lobes.h"
+#include "prt/core/transfer_volume.h"
+#include "prt/gltf/animation.h"
+#include "prt/gltf/transfer_gltf.h"
 
 #include <memory>
 #include <string>

@@ -4,7 +4,7 @@
 
 #include "core/texel_light.h"
 
-#include "prt/lightmap_lookup.h"
+#include "runtime/render/lightmap_lookup.h"
 
 #include <algorithm>
 #include <iterator>

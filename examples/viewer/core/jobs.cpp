@@ -6,7 +6,7 @@
 #include "core/moving_work.h"
 #include "core/transfer_work.h"
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 
 #include <algorithm>
 #include <iterator>

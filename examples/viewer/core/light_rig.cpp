@@ -2,12 +2,12 @@
 
 #include "core/light_rig.h"
 
-#include "prt/light.h"
-#include "prt/image_file.h"
-#include "prt/sh_basis.h"
-#include "prt/sun_shadows.h"
-#include "prt/suns.h"
-#include "prt/tone_map.h"
+#include "prt/core/light.h"
+#include "prt/core/sh_basis.h"
+#include "prt/fit/suns.h"
+#include "prt/image/image_file.h"
+#include "prt/render/tone_map.h"
+#include "runtime/render/gl/sun_shadows.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -2,11 +2,11 @@
 
 // The light on the scene: an environment or a day, and movable lights.
 
-#include "prt/distant_light.h"
-#include "prt/environment.h"
-#include "prt/light.h"
-#include "prt/surface_radiance.h"
-#include "prt/transfer_layout.h"
+#include "bake/reference/distant_light.h"
+#include "bake/reference/surface_radiance.h"
+#include "prt/core/environment.h"
+#include "prt/core/light.h"
+#include "prt/core/transfer_layout.h"
 
 #include <array>
 #include <cstdint>

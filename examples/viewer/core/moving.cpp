@@ -4,7 +4,7 @@
 
 #include "pictures/joined_scene.h"
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>

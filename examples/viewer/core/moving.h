@@ -7,7 +7,7 @@
 #include "pictures/figure_pose.h"
 #include "pictures/moving_stage.h"
 
-#include "prt/animation.h"
+#include "prt/gltf/animation.h"
 
 #include <filesystem>
 #include <memory>

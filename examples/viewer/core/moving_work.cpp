@@ -4,12 +4,12 @@
 
 #include "core/transfer_work.h"
 
-#include "prt/compress_volume.h"
-#include "prt/instances_gltf.h"
-#include "prt/ambient_occlusion.h"
-#include "prt/rigid_parts.h"
-#include "prt/support/error.h"
-#include "prt/volume_bake.h"
+#include "prt/bake/ambient_occlusion.h"
+#include "prt/bake/volume_bake.h"
+#include "prt/compress/compress_volume.h"
+#include "prt/core/error.h"
+#include "prt/gltf/transfer_gltf.h"
+#include "runtime/scene/gltf/rigid_parts.h"
 
 #include <fmt/core.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "prt/camera.h"
+#include "prt/render/camera.h"
 
 #include <glm/vec2.hpp>
 

@@ -5,7 +5,7 @@
 #include "core/light_rig.h"
 #include "pictures/model.h"
 
-#include "prt/path_tracer.h"
+#include "bake/reference/path_tracer.h"
 
 #include <memory>
 #include <mutex>

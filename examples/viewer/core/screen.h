@@ -2,7 +2,7 @@
 
 // Converts between positions in the scene and pixels of the screen, counted from its top left.
 
-#include "prt/camera.h"
+#include "prt/render/camera.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>

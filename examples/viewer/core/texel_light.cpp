@@ -2,7 +2,7 @@
 
 #include "core/texel_light.h"
 
-#include "prt/lightmap_file.h"
+#include "prt/render/lightmap_file.h"
 
 #include <algorithm>
 

@@ -4,7 +4,7 @@
 
 #include "pictures/model.h"
 
-#include "prt/transfer.h"
+#include "prt/core/transfer.h"
 
 #include <cstdint>
 #include <optional>

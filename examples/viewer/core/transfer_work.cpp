@@ -2,13 +2,13 @@
 
 #include "core/transfer_work.h"
 
-#include "prt/bake.h"
-#include "prt/lightmap_bake.h"
-#include "prt/lightmap_file.h"
-#include "prt/receiver_colors.h"
-#include "prt/reorder.h"
-#include "prt/search.h"
-#include "prt/support/error.h"
+#include "compress/study/receiver_colors.h"
+#include "prt/bake/bake.h"
+#include "prt/bake/lightmap_bake.h"
+#include "prt/compress/search.h"
+#include "prt/core/error.h"
+#include "prt/render/lightmap_file.h"
+#include "runtime/scene/gltf/reorder.h"
 
 #include <fmt/core.h>
 

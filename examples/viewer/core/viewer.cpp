@@ -4,8 +4,8 @@
 
 #include "core/budget_work.h"
 
-#include "prt/shader_source.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "prt/shader/shader_source.h"
 
 #include <fmt/core.h>
 

@@ -2,7 +2,7 @@
 
 #include "core/viewer.h"
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 
 namespace viewer {
 

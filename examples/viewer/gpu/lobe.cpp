@@ -2,7 +2,7 @@
 
 #include "gpu/lobe.h"
 
-#include "prt/sh.h"
+#include "prt/core/sh.h"
 
 #include <glm/geometric.hpp>
 

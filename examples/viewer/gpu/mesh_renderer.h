@@ -2,7 +2,7 @@
 
 #include "gpu/lobe.h"
 
-#include "prt/gl_objects.h"
+#include "runtime/render/gl/gl_objects.h"
 
 #include <glm/mat4x4.hpp>
 

@@ -2,8 +2,8 @@
 
 #include "gpu/offscreen.h"
 
-#include "prt/gl_scene.h"
-#include "prt/image_file.h"
+#include "prt/image/image_file.h"
+#include "runtime/render/gl/gl_scene.h"
 
 #include <epoxy/gl.h>
 

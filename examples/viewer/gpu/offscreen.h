@@ -1,6 +1,6 @@
 #pragma once
 
-#include "prt/gl_objects.h"
+#include "runtime/render/gl/gl_objects.h"
 
 #include <filesystem>
 

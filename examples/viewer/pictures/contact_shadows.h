@@ -1,11 +1,11 @@
 #pragma once
 
-// Shadows of moving objects on surfaces near them (prt/occlusion_volume.h).
+// Shadows of moving objects on surfaces near them (prt/core/occlusion_volume.h).
 
 #include "pictures/figure_pose.h"
 
-#include "prt/gl_occluders.h"
-#include "prt/instances_gltf.h"
+#include "prt/gltf/transfer_gltf.h"
+#include "runtime/render/gl/gl_occluders.h"
 
 #include <memory>
 #include <optional>

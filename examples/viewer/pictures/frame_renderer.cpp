@@ -2,7 +2,7 @@
 
 #include "pictures/frame_renderer.h"
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 #include "shared_layout.h"
 #include "shared_viewer.h"
 

@@ -6,7 +6,7 @@
 #include "pictures/moving_stage.h"
 #include "pictures/settings.h"
 
-#include "prt/gl_scene.h"
+#include "runtime/render/gl/gl_scene.h"
 
 #include <array>
 

@@ -5,7 +5,7 @@
 
 #include "pictures/instance_radiance.h"
 
-#include "prt/instances_gltf.h"
+#include "prt/gltf/transfer_gltf.h"
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>

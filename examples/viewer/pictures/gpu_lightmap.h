@@ -4,7 +4,7 @@
 
 #include "pictures/raw_transfer.h"
 
-#include "prt/gl_lightmap.h"
+#include "runtime/render/gl/gl_lightmap.h"
 
 #include <memory>
 #include <span>

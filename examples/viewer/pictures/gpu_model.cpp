@@ -2,8 +2,8 @@
 
 #include "pictures/gpu_model.h"
 
-#include "prt/sh.h"
-#include "prt/support/stopwatch.h"
+#include "prt/core/sh.h"
+#include "runtime/support/stopwatch.h"
 #include "shared_layout.h"
 
 #include <epoxy/gl.h>

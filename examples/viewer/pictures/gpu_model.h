@@ -10,9 +10,9 @@
 #include "pictures/raw_transfer.h"
 #include "pictures/settings.h"
 
-#include "prt/gl_scene.h"
-#include "prt/gl_transfer.h"
-#include "prt/sun_shadows.h"
+#include "runtime/render/gl/gl_scene.h"
+#include "runtime/render/gl/gl_transfer.h"
+#include "runtime/render/gl/sun_shadows.h"
 
 #include <array>
 #include <map>

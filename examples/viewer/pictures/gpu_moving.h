@@ -2,9 +2,9 @@
 
 #include "pictures/figure_pose.h"
 
-#include "prt/animation.h"
-#include "prt/gl_scene.h"
-#include "prt/lobes.h"
+#include "prt/core/lobes.h"
+#include "prt/gltf/animation.h"
+#include "runtime/render/gl/gl_scene.h"
 
 #include <span>
 #include <vector>

@@ -2,8 +2,8 @@
 
 #include "pictures/instance_radiance.h"
 
-#include "prt/shader_source.h"
-#include "prt/support/stopwatch.h"
+#include "prt/shader/shader_source.h"
+#include "runtime/support/stopwatch.h"
 #include "shared_layout.h"
 #include "shared_viewer.h"
 

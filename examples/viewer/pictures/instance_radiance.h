@@ -3,9 +3,9 @@
 // Exit radiance of all vertices of instances that share transfer, eight bytes each. It is computed once per
 // lighting, not in every frame: a frame then reads one vector per vertex, independent of the transfer.
 
-#include "prt/gl_scene.h"
-#include "prt/gl_transfer.h"
-#include "prt/instances.h"
+#include "prt/core/instances.h"
+#include "runtime/render/gl/gl_scene.h"
+#include "runtime/render/gl/gl_transfer.h"
 
 #include <glm/vec4.hpp>
 

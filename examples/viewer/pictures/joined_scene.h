@@ -1,7 +1,7 @@
 #pragma once
 
-#include "prt/scene.h"
-#include "prt/texture.h"
+#include "prt/gltf/scene.h"
+#include "prt/render/texture.h"
 
 #include <vector>
 

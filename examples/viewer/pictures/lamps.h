@@ -2,7 +2,7 @@
 
 // Strengths of the lamps of a model.
 
-#include "prt/transfer_layout.h"
+#include "prt/core/transfer_layout.h"
 
 #include <glm/vec3.hpp>
 

@@ -2,9 +2,9 @@
 
 #include "pictures/model.h"
 
-#include "prt/bake.h"
-#include "prt/lightmap_file.h"
-#include "prt/support/error.h"
+#include "prt/bake/bake.h"
+#include "prt/core/error.h"
+#include "prt/render/lightmap_file.h"
 
 #include <glm/geometric.hpp>
 

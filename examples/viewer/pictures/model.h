@@ -5,13 +5,13 @@
 #include "pictures/picture_kind.h"
 #include "pictures/triangle_clusters.h"
 
-#include "prt/gltf.h"
-#include "prt/instances_gltf.h"
-#include "prt/lightmap.h"
-#include "prt/mesh_edges.h"
-#include "prt/picture.h"
-#include "prt/support/progress.h"
-#include "prt/trace_scene.h"
+#include "bake/scene/trace_scene.h"
+#include "prt/core/lightmap.h"
+#include "prt/core/progress.h"
+#include "prt/gltf/gltf.h"
+#include "prt/gltf/transfer_gltf.h"
+#include "prt/render/picture.h"
+#include "runtime/scene/mesh_edges.h"
 
 #include <filesystem>
 #include <memory>

@@ -2,8 +2,8 @@
 
 #include "pictures/moving_stage.h"
 
-#include "prt/shader_source.h"
-#include "prt/texture.h"
+#include "prt/render/texture.h"
+#include "prt/shader/shader_source.h"
 #include "shared_layout.h"
 #include "shared_viewer.h"
 

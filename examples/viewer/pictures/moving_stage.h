@@ -7,8 +7,8 @@
 #include "pictures/lamps.h"
 #include "pictures/settings.h"
 
-#include "prt/gl_volume.h"
-#include "prt/sun_shadows.h"
+#include "runtime/render/gl/gl_volume.h"
+#include "runtime/render/gl/sun_shadows.h"
 
 #include <array>
 #include <map>

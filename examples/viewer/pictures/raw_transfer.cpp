@@ -2,7 +2,7 @@
 
 #include "pictures/raw_transfer.h"
 
-#include "prt/shader_source.h"
+#include "prt/shader/shader_source.h"
 #include "shared_layout.h"
 #include "shared_viewer.h"
 

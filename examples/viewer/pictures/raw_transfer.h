@@ -1,7 +1,7 @@
 #pragma once
 
-#include "prt/gl_objects.h"
-#include "prt/transfer.h"
+#include "prt/core/transfer.h"
+#include "runtime/render/gl/gl_objects.h"
 
 namespace viewer {
 

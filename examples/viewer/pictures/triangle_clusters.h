@@ -2,8 +2,8 @@
 
 // Culls clusters of triangles outside the view.
 
-#include "prt/gl_scene.h"
-#include "prt/scene.h"
+#include "prt/gltf/scene.h"
+#include "runtime/render/gl/gl_scene.h"
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>

@@ -2,7 +2,7 @@
 
 #include "script/figure_step.h"
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 
 #include <nlohmann/json.hpp>
 

@@ -4,7 +4,7 @@
 
 #include "core/frame_statistics.h"
 
-#include "prt/error_budget.h"
+#include "bake/studies/error_budget.h"
 
 #include <nlohmann/json.hpp>
 

@@ -2,8 +2,8 @@
 
 #include "script/lamp_step.h"
 
-#include "prt/support/error.h"
-#include "prt/support/printable.h"
+#include "prt/core/error.h"
+#include "runtime/support/printable.h"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>

@@ -10,9 +10,9 @@
 #include "ui/controls.h"
 #include "ui/user_interface.h"
 
-#include "prt/gl_context.h"
-#include "prt/support/error.h"
-#include "prt/support/file.h"
+#include "prt/core/error.h"
+#include "prt/gl/gl_context.h"
+#include "runtime/support/file.h"
 
 #include <epoxy/gl.h>
 #include <fmt/core.h>

@@ -6,7 +6,7 @@
 #include "ui/overlay.h"
 #include "ui/widgets.h"
 
-#include "prt/tone_map.h"
+#include "prt/render/tone_map.h"
 
 #include <fmt/core.h>
 #include <imgui.h>

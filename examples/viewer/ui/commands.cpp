@@ -4,7 +4,7 @@
 
 #include "ui/controls.h"
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 
 #include <algorithm>
 #include <string>

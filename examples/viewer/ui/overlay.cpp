@@ -5,8 +5,8 @@
 #include "core/budget_work.h"
 #include "ui/controls.h"
 
-#include "prt/receiver_colors.h"
-#include "prt/tone_map.h"
+#include "compress/study/receiver_colors.h"
+#include "prt/render/tone_map.h"
 
 #include <fmt/core.h>
 #include <imgui.h>

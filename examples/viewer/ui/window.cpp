@@ -6,7 +6,7 @@
 #include "ui/controls.h"
 #include "ui/user_interface.h"
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 
 #include <epoxy/gl.h>
 #define GLFW_INCLUDE_NONE

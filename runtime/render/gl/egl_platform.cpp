@@ -1,6 +1,6 @@
 // Creates contexts by EGL, which needs no display: enumerated devices, then Mesa's surfaceless platform.
 
-#include "gl_platform.h"
+#include "runtime/render/gl/gl_platform.h"
 
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>

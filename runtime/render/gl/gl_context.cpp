@@ -1,9 +1,9 @@
 // Finds an OpenGL 4.5 context: by EGL, else by a hidden GLFW window.
 
-#include "prt/gl_context.h"
+#include "prt/gl/gl_context.h"
 
-#include "gl_platform.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "runtime/render/gl/gl_platform.h"
 
 #include <epoxy/gl.h>
 

@@ -1,10 +1,10 @@
 // Lights lightmaps by a compute shader.
 
-#include "prt/gl_lightmap.h"
+#include "runtime/render/gl/gl_lightmap.h"
 
-#include "prt/gl_scene.h"
-#include "prt/lightmap_file.h"
-#include "prt/shader_source.h"
+#include "prt/render/lightmap_file.h"
+#include "prt/shader/shader_source.h"
+#include "runtime/render/gl/gl_scene.h"
 #include "shared_layout.h"
 
 #include <epoxy/gl.h>

@@ -1,8 +1,8 @@
 // Creates OpenGL objects by direct state access (OpenGL 4.5), and programs from the embedded shaders.
 
-#include "prt/gl_objects.h"
+#include "runtime/render/gl/gl_objects.h"
 
-#include "prt/shader_source.h"
+#include "prt/shader/shader_source.h"
 
 #include <epoxy/gl.h>
 

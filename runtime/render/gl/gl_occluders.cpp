@@ -1,9 +1,9 @@
 // Uploads occluders for shaders.
 
-#include "prt/gl_occluders.h"
+#include "runtime/render/gl/gl_occluders.h"
 
-#include "prt/support/counted.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "runtime/support/counted.h"
 #include "shared_layout.h"
 
 #include <epoxy/gl.h>

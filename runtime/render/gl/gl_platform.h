@@ -2,7 +2,7 @@
 
 // Platforms that create an OpenGL context without a visible window. Private: used by GlContext.
 
-#include "prt/gl_context.h"
+#include "prt/gl/gl_context.h"
 
 #include <memory>
 #include <string>

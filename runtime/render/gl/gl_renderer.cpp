@@ -1,12 +1,12 @@
 // Renders pictures by OpenGL: background, opaque primitives, then blended ones from far to near.
 
-#include "prt/gl_renderer.h"
+#include "prt/gl/gl_renderer.h"
 
-#include "prt/gl_lightmap.h"
-#include "prt/gl_scene.h"
-#include "prt/gl_transfer.h"
-#include "prt/sun_shadows.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "runtime/render/gl/gl_lightmap.h"
+#include "runtime/render/gl/gl_scene.h"
+#include "runtime/render/gl/gl_transfer.h"
+#include "runtime/render/gl/sun_shadows.h"
 #include "shared_layout.h"
 
 #include <epoxy/gl.h>

@@ -1,10 +1,10 @@
 // Uploads and draws geometry, textures and materials of a scene.
 
-#include "prt/gl_scene.h"
+#include "runtime/render/gl/gl_scene.h"
 
-#include "prt/light_passing.h"
+#include "runtime/render/gl/sun_structs.h"
+#include "runtime/scene/light_passing.h"
 #include "shared_layout.h"
-#include "sun_structs.h"
 
 #include <epoxy/gl.h>
 #include <glm/geometric.hpp>

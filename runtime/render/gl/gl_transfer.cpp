@@ -1,8 +1,8 @@
 // Uploads compressed transfer as vertex attributes and storage buffers.
 
-#include "prt/gl_transfer.h"
+#include "runtime/render/gl/gl_transfer.h"
 
-#include "prt/shader_source.h"
+#include "prt/shader/shader_source.h"
 #include "shared_layout.h"
 
 #include <epoxy/gl.h>

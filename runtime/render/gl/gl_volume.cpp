@@ -1,9 +1,9 @@
 // Lights volumes by a compute shader.
 
-#include "prt/gl_volume.h"
+#include "runtime/render/gl/gl_volume.h"
 
-#include "prt/shader_source.h"
-#include "prt/volume_weights.h"
+#include "prt/shader/shader_source.h"
+#include "runtime/transfer/volume_weights.h"
 #include "shared_layout.h"
 
 #include <epoxy/gl.h>

@@ -1,6 +1,6 @@
 // Creates contexts by a hidden GLFW window, for systems without EGL.
 
-#include "gl_platform.h"
+#include "runtime/render/gl/gl_platform.h"
 
 #include <epoxy/gl.h>
 

@@ -2,9 +2,9 @@
 // Space Perspective Shadow Maps", 2004, section 4, for the enclosed bodies; F. Zhang et al., "Parallel-split
 // Shadow Maps", 2006, for the slices).
 
-#include "map_fit.h"
+#include "runtime/render/gl/map_fit.h"
 
-#include "prt/support/tangent_frame.h"
+#include "runtime/support/tangent_frame.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

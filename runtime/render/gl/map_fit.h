@@ -2,8 +2,8 @@
 
 // Placement of shadow maps: fitted to the visible part of the scene and the casters between it and the sun.
 
-#include "prt/picture.h"
-#include "sun_structs.h"
+#include "prt/render/picture.h"
+#include "runtime/render/gl/sun_structs.h"
 
 #include <vector>
 

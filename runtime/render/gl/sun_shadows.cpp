@@ -1,10 +1,10 @@
 // Draws shadow casters into arrays of depth maps.
 
-#include "prt/sun_shadows.h"
+#include "runtime/render/gl/sun_shadows.h"
 
-#include "map_fit.h"
+#include "runtime/render/gl/map_fit.h"
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 
 #include <epoxy/gl.h>
 #include <glm/common.hpp>

@@ -1,7 +1,7 @@
 // Reads accessors, including sparse ones and normalised integers, with checks of every index.
-#include "gltf/accessor.h"
+#include "runtime/scene/gltf/accessor.h"
 
-#include "prt/support/counted.h"
+#include "runtime/support/counted.h"
 
 #include <algorithm>
 #include <cstring>

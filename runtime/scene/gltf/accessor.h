@@ -2,7 +2,7 @@
 
 // Reading of glTF accessors.
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 
 #include <tiny_gltf.h>
 

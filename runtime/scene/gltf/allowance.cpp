@@ -1,7 +1,7 @@
 // Memory limit for reading a file.
-#include "gltf/allowance.h"
+#include "runtime/scene/gltf/allowance.h"
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 
 namespace prt {
 

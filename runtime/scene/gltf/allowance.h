@@ -2,7 +2,7 @@
 
 // Memory limit for reading a file.
 
-#include "gltf/contents.h"
+#include "runtime/scene/gltf/contents.h"
 
 #include <cstddef>
 #include <string>

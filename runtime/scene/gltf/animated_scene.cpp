@@ -1,11 +1,11 @@
 // A scene with animated nodes.
-#include "gltf/extraction.h"
-#include "gltf/node_transforms.h"
-#include "gltf/read_animations.h"
-#include "gltf/skinning.h"
-#include "gltf/transformed_normal.h"
-#include "prt/animation.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "prt/gltf/animation.h"
+#include "runtime/scene/gltf/extraction.h"
+#include "runtime/scene/gltf/node_transforms.h"
+#include "runtime/scene/gltf/read_animations.h"
+#include "runtime/scene/gltf/skinning.h"
+#include "runtime/scene/gltf/transformed_normal.h"
 
 #include <algorithm>
 

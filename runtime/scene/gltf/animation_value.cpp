@@ -1,5 +1,5 @@
 // Interpolates keyframes (glTF 2.0, appendix C).
-#include "prt/animation.h"
+#include "prt/gltf/animation.h"
 
 #include <glm/gtc/quaternion.hpp>
 

@@ -1,9 +1,9 @@
 // Checks that views are inside buffers, accessors inside views, and attributes have equal length.
-#include "gltf/check_data.h"
+#include "runtime/scene/gltf/check_data.h"
 
-#include "gltf/accessor.h"
-#include "gltf/allowance.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "runtime/scene/gltf/accessor.h"
+#include "runtime/scene/gltf/allowance.h"
 
 #include <map>
 #include <string>

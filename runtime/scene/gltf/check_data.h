@@ -2,7 +2,7 @@
 
 // Consistency checks of a glTF file.
 
-#include "gltf/contents.h"
+#include "runtime/scene/gltf/contents.h"
 
 namespace prt {
 

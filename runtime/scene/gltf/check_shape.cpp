@@ -1,11 +1,11 @@
 // Checks the structure of a glTF file's JSON: lists, integers, and their number.
-#include "gltf/check_shape.h"
+#include "runtime/scene/gltf/check_shape.h"
 
-#include "gltf/allowance.h"
-#include "gltf/draco_primitives.h"
-#include "gltf/json_text.h"
-#include "gltf/meshopt_views.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "runtime/scene/gltf/allowance.h"
+#include "runtime/scene/gltf/draco_primitives.h"
+#include "runtime/scene/gltf/json_text.h"
+#include "runtime/scene/gltf/meshopt_views.h"
 
 #include <algorithm>
 #include <array>

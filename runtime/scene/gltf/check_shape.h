@@ -2,7 +2,7 @@
 
 // Checks of a glTF file's JSON before it is read.
 
-#include "gltf/contents.h"
+#include "runtime/scene/gltf/contents.h"
 
 namespace prt {
 

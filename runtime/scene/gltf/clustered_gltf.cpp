@@ -1,16 +1,16 @@
 // Reads and writes compressed transfer in glTF files: PRTKIT_clustered_pca of docs/format.md.
 
-#include "prt/gltf.h"
+#include "prt/gltf/gltf.h"
 
-#include "gltf/accessor.h"
-#include "gltf/allowance.h"
-#include "gltf/changed_file.h"
-#include "gltf/clustered_json.h"
-#include "gltf/fallback.h"
-#include "gltf/make_meshes_unique.h"
-#include "gltf/own_attributes.h"
-#include "gltf/predictors_json.h"
-#include "gltf/transfer_json.h"
+#include "runtime/scene/gltf/accessor.h"
+#include "runtime/scene/gltf/allowance.h"
+#include "runtime/scene/gltf/changed_file.h"
+#include "runtime/scene/gltf/clustered_json.h"
+#include "runtime/scene/gltf/fallback.h"
+#include "runtime/scene/gltf/make_meshes_unique.h"
+#include "runtime/scene/gltf/own_attributes.h"
+#include "runtime/scene/gltf/predictors_json.h"
+#include "runtime/scene/gltf/transfer_json.h"
 
 #include <algorithm>
 #include <cstring>

@@ -1,10 +1,10 @@
 // Reads and writes clusters, bases and packed weights: docs/format.md.
 
-#include "gltf/clustered_json.h"
+#include "runtime/scene/gltf/clustered_json.h"
 
-#include "gltf/accessor.h"
-#include "gltf/allowance.h"
-#include "prt/support/bits.h"
+#include "runtime/scene/gltf/accessor.h"
+#include "runtime/scene/gltf/allowance.h"
+#include "runtime/support/bits.h"
 
 #include <algorithm>
 #include <cmath>

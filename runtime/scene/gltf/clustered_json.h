@@ -2,8 +2,8 @@
 
 // Clusters, bases and packed weights in the extensions of prtkit.
 
-#include "gltf/transfer_json.h"
-#include "prt/clustered_transfer.h"
+#include "prt/core/clustered_transfer.h"
+#include "runtime/scene/gltf/transfer_json.h"
 
 namespace prt {
 

@@ -1,12 +1,12 @@
 // Reads and writes coded words of vertices in glTF files: PRTKIT_clustered_pca of docs/format.md.
-#include "gltf/coded_vertices.h"
+#include "runtime/scene/gltf/coded_vertices.h"
 
-#include "gltf/accessor.h"
-#include "gltf/allowance.h"
-#include "gltf/changed_file.h"
-#include "gltf/clustered_json.h"
-#include "gltf/triangles.h"
-#include "prt/coded_words.h"
+#include "runtime/scene/gltf/accessor.h"
+#include "runtime/scene/gltf/allowance.h"
+#include "runtime/scene/gltf/changed_file.h"
+#include "runtime/scene/gltf/clustered_json.h"
+#include "runtime/scene/gltf/triangles.h"
+#include "runtime/transfer/coded_words.h"
 
 #include <climits>
 #include <cstring>

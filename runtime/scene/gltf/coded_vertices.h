@@ -2,7 +2,7 @@
 
 // Entropy-coded words of vertices in files, stored outside the attributes (docs/format.md).
 
-#include "gltf/contents.h"
+#include "runtime/scene/gltf/contents.h"
 
 #include <optional>
 

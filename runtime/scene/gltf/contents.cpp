@@ -1,9 +1,9 @@
 // Edits a glTF document: adds data, and removes data together with everything that only it used.
-#include "gltf/contents.h"
+#include "runtime/scene/gltf/contents.h"
 
-#include "gltf/own_attributes.h"
-#include "prt/support/error.h"
-#include "prt/support/printable.h"
+#include "prt/core/error.h"
+#include "runtime/scene/gltf/own_attributes.h"
+#include "runtime/support/printable.h"
 
 #include <algorithm>
 #include <functional>

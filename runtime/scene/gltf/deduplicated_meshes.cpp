@@ -1,7 +1,7 @@
 // Moves meshes whose instances share transfer to proxy nodes, which draw each mesh once, and back.
-#include "gltf/deduplicated_meshes.h"
+#include "runtime/scene/gltf/deduplicated_meshes.h"
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 
 #include <map>
 #include <string>

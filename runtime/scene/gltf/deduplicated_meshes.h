@@ -3,7 +3,7 @@
 // Meshes whose instances share transfer, once each in their own frame: the form in which transfer is stored,
 // compressed and written.
 
-#include "gltf/contents.h"
+#include "runtime/scene/gltf/contents.h"
 
 namespace prt {
 

@@ -1,9 +1,9 @@
 // Decodes a compressed mesh by Google's Draco decoder.
-#include "gltf/draco_mesh.h"
+#include "runtime/scene/gltf/draco_mesh.h"
 
-#include "gltf/accessor.h"
-#include "prt/support/counted.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "runtime/scene/gltf/accessor.h"
+#include "runtime/support/counted.h"
 
 #include <draco/compression/decode.h>
 #include <draco/compression/point_cloud/point_cloud_decoder.h>

@@ -1,10 +1,10 @@
 // Decompresses primitives with KHR_draco_mesh_compression when a file is read.
-#include "gltf/draco_primitives.h"
+#include "runtime/scene/gltf/draco_primitives.h"
 
-#include "gltf/accessor.h"
-#include "gltf/allowance.h"
-#include "gltf/draco_mesh.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "runtime/scene/gltf/accessor.h"
+#include "runtime/scene/gltf/allowance.h"
+#include "runtime/scene/gltf/draco_mesh.h"
 
 #include <algorithm>
 #include <map>

@@ -2,7 +2,7 @@
 
 // Primitives compressed with KHR_draco_mesh_compression.
 
-#include "gltf/contents.h"
+#include "runtime/scene/gltf/contents.h"
 
 namespace prt {
 

@@ -2,7 +2,7 @@
 
 // Decomposition of node matrices.
 
-#include "prt/instances_gltf.h"
+#include "prt/gltf/transfer_gltf.h"
 
 #include <glm/mat4x4.hpp>
 

@@ -2,9 +2,9 @@
 
 // Extraction of a scene from a document, and of its vertices before transformation.
 
-#include "gltf/contents.h"
-#include "gltf/level_nodes.h"
-#include "prt/animation.h"
+#include "prt/gltf/animation.h"
+#include "runtime/scene/gltf/contents.h"
+#include "runtime/scene/gltf/level_nodes.h"
 
 #include <map>
 #include <vector>

@@ -1,10 +1,10 @@
 // Baked light for viewers without support for the extensions: docs/format.md, "Fallback".
 
-#include "prt/fallback.h"
+#include "runtime/scene/gltf/vertex_fallback.h"
 
-#include "gltf/fallback.h"
-#include "gltf/make_meshes_unique.h"
-#include "gltf/transfer_json.h"
+#include "runtime/scene/gltf/fallback.h"
+#include "runtime/scene/gltf/make_meshes_unique.h"
+#include "runtime/scene/gltf/transfer_json.h"
 
 #include <glm/common.hpp>
 #include <glm/gtc/type_precision.hpp>

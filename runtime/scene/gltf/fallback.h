@@ -2,7 +2,7 @@
 
 // Fallback colors of a file.
 
-#include "gltf/contents.h"
+#include "runtime/scene/gltf/contents.h"
 
 namespace prt {
 

@@ -1,7 +1,7 @@
 // Creates accessors with the elements of another in a new order.
-#include "gltf/gathered_accessor.h"
+#include "runtime/scene/gltf/gathered_accessor.h"
 
-#include "gltf/accessor.h"
+#include "runtime/scene/gltf/accessor.h"
 
 #include <algorithm>
 #include <cstring>

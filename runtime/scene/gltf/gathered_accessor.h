@@ -2,7 +2,7 @@
 
 // Accessors with reordered elements.
 
-#include "gltf/contents.h"
+#include "runtime/scene/gltf/contents.h"
 
 #include <glm/vec3.hpp>
 

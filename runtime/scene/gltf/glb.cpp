@@ -1,7 +1,7 @@
 // Reads and writes the container of .glb files: a header and two chunks (glTF 2.0, section 4).
-#include "gltf/glb.h"
+#include "runtime/scene/gltf/glb.h"
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 
 #include <cstdint>
 #include <cstring>

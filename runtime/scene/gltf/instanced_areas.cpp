@@ -1,11 +1,11 @@
 // Computes areas of meshes with shared transfer over all their instances.
-#include "prt/instances_gltf.h"
+#include "prt/gltf/transfer_gltf.h"
 
-#include "gltf/accessor.h"
-#include "gltf/contents.h"
-#include "gltf/node_transforms.h"
-#include "gltf/transfer_json.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "runtime/scene/gltf/accessor.h"
+#include "runtime/scene/gltf/contents.h"
+#include "runtime/scene/gltf/node_transforms.h"
+#include "runtime/scene/gltf/transfer_json.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>

@@ -1,8 +1,8 @@
 // Reads a file in two forms: with one node per instance, and with meshes as their transfer is stored.
-#include "gltf/contents.h"
-#include "prt/encode_glb.h"
-#include "prt/instances_gltf.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "prt/gltf/transfer_gltf.h"
+#include "runtime/scene/gltf/contents.h"
+#include "runtime/scene/gltf/encode_glb.h"
 
 namespace prt {
 

@@ -1,11 +1,11 @@
 // Converts instances of EXT_mesh_gpu_instancing to nodes.
-#include "gltf/instances.h"
+#include "runtime/scene/gltf/instances.h"
 
-#include "gltf/accessor.h"
-#include "gltf/allowance.h"
-#include "gltf/transfer_json.h"
-#include "prt/support/counted.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "runtime/scene/gltf/accessor.h"
+#include "runtime/scene/gltf/allowance.h"
+#include "runtime/scene/gltf/transfer_json.h"
+#include "runtime/support/counted.h"
 
 #include <algorithm>
 #include <cmath>

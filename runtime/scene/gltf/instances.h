@@ -2,7 +2,7 @@
 
 // Nodes that draw their mesh several times: EXT_mesh_gpu_instancing.
 
-#include "gltf/contents.h"
+#include "runtime/scene/gltf/contents.h"
 
 namespace prt {
 

@@ -1,12 +1,12 @@
 // Reads and writes factors of instances in glTF files: PRTKIT_instances of docs/format.md.
-#include "prt/instances_gltf.h"
+#include "prt/gltf/transfer_gltf.h"
 
-#include "gltf/accessor.h"
-#include "gltf/allowance.h"
-#include "gltf/even_placement.h"
-#include "gltf/node_transforms.h"
-#include "gltf/transfer_json.h"
-#include "prt/support/parallel.h"
+#include "runtime/scene/gltf/accessor.h"
+#include "runtime/scene/gltf/allowance.h"
+#include "runtime/scene/gltf/even_placement.h"
+#include "runtime/scene/gltf/node_transforms.h"
+#include "runtime/scene/gltf/transfer_json.h"
+#include "runtime/support/parallel.h"
 
 #include <algorithm>
 #include <cmath>

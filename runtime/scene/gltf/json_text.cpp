@@ -1,8 +1,8 @@
 // Parses the JSON of a glTF file.
-#include "gltf/json_text.h"
+#include "runtime/scene/gltf/json_text.h"
 
-#include "prt/support/error.h"
-#include "prt/support/json_tree.h"
+#include "prt/core/error.h"
+#include "runtime/support/json_tree.h"
 
 #include <algorithm>
 #include <string>

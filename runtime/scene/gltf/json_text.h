@@ -2,7 +2,7 @@
 
 // Parsing of a glTF file's JSON.
 
-#include "gltf/contents.h"
+#include "runtime/scene/gltf/contents.h"
 
 #include <string_view>
 

@@ -1,5 +1,5 @@
 // Parses level-of-detail names as used by modelling tools and game engines.
-#include "gltf/level_names.h"
+#include "runtime/scene/gltf/level_names.h"
 
 #include <algorithm>
 

@@ -1,9 +1,9 @@
 // Finds levels by MSFT_lod and by names, and computes their transforms.
-#include "gltf/level_nodes.h"
+#include "runtime/scene/gltf/level_nodes.h"
 
-#include "gltf/level_names.h"
-#include "prt/support/error.h"
-#include "prt/support/printable.h"
+#include "prt/core/error.h"
+#include "runtime/scene/gltf/level_names.h"
+#include "runtime/support/printable.h"
 
 #include <algorithm>
 #include <map>

@@ -2,8 +2,8 @@
 
 // Detection of nodes that are coarser levels of detail, and their transforms.
 
-#include "gltf/contents.h"
-#include "gltf/node_transforms.h"
+#include "runtime/scene/gltf/contents.h"
+#include "runtime/scene/gltf/node_transforms.h"
 
 #include <string>
 #include <vector>

@@ -1,10 +1,10 @@
 // Scenes with the coarser levels of their nodes.
-#include "prt/levels.h"
+#include "prt/gltf/levels.h"
 
-#include "gltf/extraction.h"
-#include "gltf/fallback.h"
-#include "gltf/own_attributes.h"
-#include "gltf/transfer_json.h"
+#include "runtime/scene/gltf/extraction.h"
+#include "runtime/scene/gltf/fallback.h"
+#include "runtime/scene/gltf/own_attributes.h"
+#include "runtime/scene/gltf/transfer_json.h"
 
 #include <algorithm>
 #include <set>

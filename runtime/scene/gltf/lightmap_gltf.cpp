@@ -1,12 +1,12 @@
 // Reads and writes transfer of texels in glTF files: PRTKIT_lightmap of docs/format.md.
 
-#include "prt/instances_gltf.h"
-#include "prt/support/counted.h"
+#include "prt/gltf/transfer_gltf.h"
+#include "runtime/support/counted.h"
 
-#include "gltf/accessor.h"
-#include "gltf/allowance.h"
-#include "gltf/clustered_json.h"
-#include "gltf/make_meshes_unique.h"
+#include "runtime/scene/gltf/accessor.h"
+#include "runtime/scene/gltf/allowance.h"
+#include "runtime/scene/gltf/clustered_json.h"
+#include "runtime/scene/gltf/make_meshes_unique.h"
 
 #include <algorithm>
 #include <cstring>

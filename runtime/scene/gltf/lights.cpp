@@ -1,10 +1,10 @@
 // Reads KHR_lights_punctual from the JSON, because tinygltf does not distinguish a range of 0 from a missing
 // one.
-#include "gltf/lights.h"
+#include "runtime/scene/gltf/lights.h"
 
-#include "gltf/transfer_json.h"
-#include "prt/support/counted.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "runtime/scene/gltf/transfer_json.h"
+#include "runtime/support/counted.h"
 
 #include <glm/geometric.hpp>
 

@@ -2,9 +2,9 @@
 
 // Lights of KHR_lights_punctual.
 
-#include "gltf/contents.h"
-#include "gltf/node_transforms.h"
-#include "prt/scene.h"
+#include "prt/gltf/scene.h"
+#include "runtime/scene/gltf/contents.h"
+#include "runtime/scene/gltf/node_transforms.h"
 
 #include <vector>
 

@@ -1,11 +1,11 @@
 // Reads and writes zonal lobes in glTF files: PRTKIT_lobes of docs/format.md.
 
-#include "prt/instances_gltf.h"
+#include "prt/gltf/transfer_gltf.h"
 
-#include "gltf/accessor.h"
-#include "gltf/allowance.h"
-#include "gltf/make_meshes_unique.h"
-#include "gltf/transfer_json.h"
+#include "runtime/scene/gltf/accessor.h"
+#include "runtime/scene/gltf/allowance.h"
+#include "runtime/scene/gltf/make_meshes_unique.h"
+#include "runtime/scene/gltf/transfer_json.h"
 
 #include <algorithm>
 #include <cstring>

@@ -1,12 +1,12 @@
 // Creates a separate mesh for every node, and primitives without normals flat ones, as in the extracted
 // scene.
-#include "gltf/make_meshes_unique.h"
+#include "runtime/scene/gltf/make_meshes_unique.h"
 
-#include "gltf/accessor.h"
-#include "gltf/allowance.h"
-#include "gltf/gathered_accessor.h"
-#include "gltf/json_text.h"
-#include "triangle_normal.h"
+#include "runtime/scene/gltf/accessor.h"
+#include "runtime/scene/gltf/allowance.h"
+#include "runtime/scene/gltf/gathered_accessor.h"
+#include "runtime/scene/gltf/json_text.h"
+#include "runtime/scene/triangle_normal.h"
 
 #include <glm/geometric.hpp>
 

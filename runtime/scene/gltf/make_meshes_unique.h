@@ -2,8 +2,8 @@
 
 // Separate meshes for nodes.
 
-#include "gltf/contents.h"
-#include "prt/scene.h"
+#include "prt/gltf/scene.h"
+#include "runtime/scene/gltf/contents.h"
 
 namespace prt {
 

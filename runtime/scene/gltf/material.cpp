@@ -1,10 +1,10 @@
 // Reads materials with the extensions that affect transmitted light.
-#include "gltf/material.h"
+#include "runtime/scene/gltf/material.h"
 
-#include "gltf/lights.h"
-#include "prt/support/counted.h"
-#include "prt/support/error.h"
-#include "prt/support/printable.h"
+#include "prt/core/error.h"
+#include "runtime/scene/gltf/lights.h"
+#include "runtime/support/counted.h"
+#include "runtime/support/printable.h"
 
 #include <algorithm>
 #include <cmath>

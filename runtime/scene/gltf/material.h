@@ -2,8 +2,8 @@
 
 // Reading of glTF materials.
 
-#include "gltf/unit_range.h"
-#include "prt/scene.h"
+#include "prt/gltf/scene.h"
+#include "runtime/scene/gltf/unit_range.h"
 
 #include <tiny_gltf.h>
 

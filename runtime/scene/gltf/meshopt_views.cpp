@@ -1,11 +1,11 @@
 // Decompresses views with EXT_meshopt_compression when a file is read, and compresses them when it is
 // written.
-#include "gltf/meshopt_views.h"
+#include "runtime/scene/gltf/meshopt_views.h"
 
-#include "gltf/accessor.h"
-#include "gltf/allowance.h"
-#include "prt/support/counted.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "runtime/scene/gltf/accessor.h"
+#include "runtime/scene/gltf/allowance.h"
+#include "runtime/support/counted.h"
 
 #include <meshoptimizer.h>
 

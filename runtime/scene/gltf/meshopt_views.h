@@ -2,7 +2,7 @@
 
 // Buffer views compressed with EXT_meshopt_compression or KHR_meshopt_compression.
 
-#include "gltf/contents.h"
+#include "runtime/scene/gltf/contents.h"
 
 namespace prt {
 

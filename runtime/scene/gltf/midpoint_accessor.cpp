@@ -1,8 +1,8 @@
 // Computes attributes of edge midpoints.
-#include "gltf/midpoint_accessor.h"
+#include "runtime/scene/gltf/midpoint_accessor.h"
 
-#include "gltf/accessor.h"
-#include "gltf/gathered_accessor.h"
+#include "runtime/scene/gltf/accessor.h"
+#include "runtime/scene/gltf/gathered_accessor.h"
 
 #include <algorithm>
 #include <cmath>

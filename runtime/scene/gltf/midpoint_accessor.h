@@ -2,8 +2,8 @@
 
 // Attributes of edge midpoints.
 
-#include "gltf/contents.h"
-#include "prt/refinement.h"
+#include "prt/gltf/refinement.h"
+#include "runtime/scene/gltf/contents.h"
 
 #include <cstddef>
 #include <span>

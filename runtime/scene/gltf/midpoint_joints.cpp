@@ -1,9 +1,9 @@
 // Computes joints and weights of edge midpoints (glTF 2.0, section 3.7.3.3).
-#include "gltf/midpoint_joints.h"
+#include "runtime/scene/gltf/midpoint_joints.h"
 
-#include "gltf/accessor.h"
-#include "gltf/gathered_accessor.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "runtime/scene/gltf/accessor.h"
+#include "runtime/scene/gltf/gathered_accessor.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // Computes world transforms of nodes from the hierarchy of the default scene.
-#include "gltf/node_transforms.h"
+#include "runtime/scene/gltf/node_transforms.h"
 
-#include "prt/support/error.h"
-#include "prt/support/printable.h"
+#include "prt/core/error.h"
+#include "runtime/support/printable.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>

@@ -1,9 +1,9 @@
 // Reads and writes occlusion volumes of nodes in glTF files: PRTKIT_occlusion_volume of docs/format.md.
 
-#include "prt/instances_gltf.h"
+#include "prt/gltf/transfer_gltf.h"
 
-#include "gltf/accessor.h"
-#include "gltf/transfer_json.h"
+#include "runtime/scene/gltf/accessor.h"
+#include "runtime/scene/gltf/transfer_json.h"
 
 #include <cstring>
 #include <set>

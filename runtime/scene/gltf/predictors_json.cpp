@@ -1,8 +1,8 @@
 // Reads and writes predictors and offsets of compressed transfer in glTF files.
-#include "gltf/predictors_json.h"
+#include "runtime/scene/gltf/predictors_json.h"
 
-#include "gltf/allowance.h"
-#include "prt/predictors.h"
+#include "runtime/scene/gltf/allowance.h"
+#include "runtime/scene/predictors.h"
 
 #include <cmath>
 

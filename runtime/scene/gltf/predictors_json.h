@@ -2,7 +2,7 @@
 
 // Predictors and offsets of PRTKIT_clustered_pca (docs/format.md).
 
-#include "gltf/transfer_json.h"
+#include "runtime/scene/gltf/transfer_json.h"
 
 namespace prt {
 

@@ -1,10 +1,10 @@
 // Reads animations of nodes (glTF 2.0, section 3.11).
-#include "gltf/read_animations.h"
+#include "runtime/scene/gltf/read_animations.h"
 
-#include "gltf/accessor.h"
-#include "gltf/allowance.h"
-#include "prt/support/counted.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "runtime/scene/gltf/accessor.h"
+#include "runtime/scene/gltf/allowance.h"
+#include "runtime/support/counted.h"
 
 #include <algorithm>
 #include <cmath>

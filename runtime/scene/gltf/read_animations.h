@@ -2,8 +2,8 @@
 
 // Reading of animations.
 
-#include "gltf/contents.h"
-#include "prt/animation.h"
+#include "prt/gltf/animation.h"
+#include "runtime/scene/gltf/contents.h"
 
 namespace prt {
 

@@ -1,12 +1,12 @@
 // Writes a refined file: vertices and triangles of a refinement, with all vertex data of the file.
-#include "prt/refinement.h"
+#include "prt/gltf/refinement.h"
 
-#include "gltf/gathered_accessor.h"
-#include "gltf/make_meshes_unique.h"
-#include "gltf/midpoint_accessor.h"
-#include "gltf/midpoint_joints.h"
-#include "gltf/reparse.h"
-#include "gltf/transfer_json.h"
+#include "runtime/scene/gltf/gathered_accessor.h"
+#include "runtime/scene/gltf/make_meshes_unique.h"
+#include "runtime/scene/gltf/midpoint_accessor.h"
+#include "runtime/scene/gltf/midpoint_joints.h"
+#include "runtime/scene/gltf/reparse.h"
+#include "runtime/scene/gltf/transfer_json.h"
 
 #include <map>
 #include <optional>

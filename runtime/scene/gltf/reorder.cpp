@@ -1,12 +1,12 @@
 // Sorts vertices by cluster, in memory and in files, and measures the reuse of a vertex order on GPUs.
-#include "prt/reorder.h"
+#include "runtime/scene/gltf/reorder.h"
 
-#include "gltf/accessor.h"
-#include "gltf/contents.h"
-#include "gltf/gathered_accessor.h"
-#include "gltf/make_meshes_unique.h"
-#include "gltf/transfer_json.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "runtime/scene/gltf/accessor.h"
+#include "runtime/scene/gltf/contents.h"
+#include "runtime/scene/gltf/gathered_accessor.h"
+#include "runtime/scene/gltf/make_meshes_unique.h"
+#include "runtime/scene/gltf/transfer_json.h"
 
 #include <meshoptimizer.h>
 

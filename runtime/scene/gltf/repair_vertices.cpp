@@ -1,12 +1,12 @@
 // Replaces unusable normals and texture coordinates in the document.
-#include "gltf/repair_vertices.h"
+#include "runtime/scene/gltf/repair_vertices.h"
 
-#include "gltf/accessor.h"
-#include "gltf/allowance.h"
-#include "gltf/triangles.h"
-#include "prt/support/counted.h"
-#include "prt/support/error.h"
-#include "triangle_normal.h"
+#include "prt/core/error.h"
+#include "runtime/scene/gltf/accessor.h"
+#include "runtime/scene/gltf/allowance.h"
+#include "runtime/scene/gltf/triangles.h"
+#include "runtime/scene/triangle_normal.h"
+#include "runtime/support/counted.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // Writes and parses a document.
-#include "gltf/reparse.h"
+#include "runtime/scene/gltf/reparse.h"
 
-#include "gltf/contents.h"
-#include "prt/encode_glb.h"
+#include "runtime/scene/gltf/contents.h"
+#include "runtime/scene/gltf/encode_glb.h"
 
 namespace prt {
 

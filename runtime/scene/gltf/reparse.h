@@ -2,7 +2,7 @@
 
 // Refreshing of a document after edits.
 
-#include "prt/gltf.h"
+#include "prt/gltf/gltf.h"
 
 namespace prt {
 

@@ -1,10 +1,10 @@
 // Splits a scene into rigid parts by the node that moves each triangle.
 
-#include "prt/rigid_parts.h"
+#include "runtime/scene/gltf/rigid_parts.h"
 
-#include "gltf/accessor.h"
-#include "gltf/node_transforms.h"
-#include "gltf/transfer_json.h"
+#include "runtime/scene/gltf/accessor.h"
+#include "runtime/scene/gltf/node_transforms.h"
+#include "runtime/scene/gltf/transfer_json.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

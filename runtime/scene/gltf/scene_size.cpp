@@ -1,9 +1,9 @@
 // Estimates the memory of vertices, indices and morph targets of all nodes.
-#include "gltf/scene_size.h"
+#include "runtime/scene/gltf/scene_size.h"
 
-#include "gltf/accessor.h"
-#include "gltf/allowance.h"
-#include "gltf/triangles.h"
+#include "runtime/scene/gltf/accessor.h"
+#include "runtime/scene/gltf/allowance.h"
+#include "runtime/scene/gltf/triangles.h"
 
 #include <algorithm>
 #include <map>

@@ -2,8 +2,8 @@
 
 // Memory estimate of a scene's meshes before they are read.
 
-#include "gltf/contents.h"
-#include "gltf/node_transforms.h"
+#include "runtime/scene/gltf/contents.h"
+#include "runtime/scene/gltf/node_transforms.h"
 
 #include <span>
 

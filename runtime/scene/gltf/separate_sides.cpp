@@ -1,13 +1,13 @@
 // Splits double-sided triangles into two single-sided ones.
-#include "prt/separate_sides.h"
+#include "runtime/scene/gltf/separate_sides.h"
 
-#include "gltf/accessor.h"
-#include "gltf/gathered_accessor.h"
-#include "gltf/make_meshes_unique.h"
-#include "gltf/material_choices.h"
-#include "gltf/reparse.h"
-#include "gltf/transfer_json.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "runtime/scene/gltf/accessor.h"
+#include "runtime/scene/gltf/gathered_accessor.h"
+#include "runtime/scene/gltf/make_meshes_unique.h"
+#include "runtime/scene/gltf/material_choices.h"
+#include "runtime/scene/gltf/reparse.h"
+#include "runtime/scene/gltf/transfer_json.h"
 
 #include <algorithm>
 #include <cstring>

@@ -1,9 +1,9 @@
 // Converts nodes that were created for instances when the file was read back to instances of a shared mesh.
-#include "prt/instances_gltf.h"
+#include "prt/gltf/transfer_gltf.h"
 
-#include "gltf/accessor.h"
-#include "gltf/contents.h"
-#include "prt/encode_glb.h"
+#include "runtime/scene/gltf/accessor.h"
+#include "runtime/scene/gltf/contents.h"
+#include "runtime/scene/gltf/encode_glb.h"
 
 #include <algorithm>
 #include <cstring>

@@ -1,9 +1,9 @@
 // Finds meshes that several nodes draw with rotation, translation and uniform scale.
-#include "prt/instances_gltf.h"
+#include "prt/gltf/transfer_gltf.h"
 
-#include "gltf/contents.h"
-#include "gltf/even_placement.h"
-#include "gltf/node_transforms.h"
+#include "runtime/scene/gltf/contents.h"
+#include "runtime/scene/gltf/even_placement.h"
+#include "runtime/scene/gltf/node_transforms.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>

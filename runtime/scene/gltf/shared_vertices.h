@@ -2,7 +2,7 @@
 
 // Primitives of a glTF file that share a vertex array.
 
-#include "gltf/own_attributes.h"
+#include "runtime/scene/gltf/own_attributes.h"
 
 #include <tiny_gltf.h>
 

@@ -1,10 +1,10 @@
 // Finds and reads external files of a scene.
-#include "gltf/side_files.h"
+#include "runtime/scene/gltf/side_files.h"
 
-#include "prt/support/error.h"
-#include "prt/support/file.h"
-#include "prt/support/lfs_pointer.h"
-#include "prt/support/printable.h"
+#include "prt/core/error.h"
+#include "runtime/support/file.h"
+#include "runtime/support/lfs_pointer.h"
+#include "runtime/support/printable.h"
 
 #include <algorithm>
 #include <cctype>

@@ -2,7 +2,7 @@
 
 // External files of a scene.
 
-#include "prt/gltf.h"
+#include "prt/gltf/gltf.h"
 
 #include <tiny_gltf.h>
 

@@ -1,9 +1,9 @@
 // Reads skins (glTF 2.0, section 3.7.3).
-#include "gltf/skinning.h"
+#include "runtime/scene/gltf/skinning.h"
 
-#include "gltf/accessor.h"
-#include "prt/support/counted.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "runtime/scene/gltf/accessor.h"
+#include "runtime/support/counted.h"
 
 #include <glm/gtc/type_ptr.hpp>
 

@@ -2,7 +2,7 @@
 
 // Reading of skins.
 
-#include "prt/animation.h"
+#include "prt/gltf/animation.h"
 
 #include <glm/mat4x4.hpp>
 #include <tiny_gltf.h>

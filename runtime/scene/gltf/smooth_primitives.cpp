@@ -1,12 +1,12 @@
 // Adds smooth normals to primitives without normals.
 
-#include "gltf/smooth_primitives.h"
+#include "runtime/scene/gltf/smooth_primitives.h"
 
-#include "gltf/accessor.h"
-#include "gltf/make_meshes_unique.h"
-#include "gltf/triangles.h"
-#include "prt/support/counted.h"
-#include "smooth_normals.h"
+#include "runtime/scene/gltf/accessor.h"
+#include "runtime/scene/gltf/make_meshes_unique.h"
+#include "runtime/scene/gltf/triangles.h"
+#include "runtime/scene/smooth_normals.h"
+#include "runtime/support/counted.h"
 
 #include <sstream>
 

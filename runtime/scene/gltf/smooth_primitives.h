@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gltf/contents.h"
+#include "runtime/scene/gltf/contents.h"
 
 namespace prt {
 

@@ -1,10 +1,10 @@
 // Extensions of glTF that the reader supports.
-#include "gltf/supported_extensions.h"
+#include "runtime/scene/gltf/supported_extensions.h"
 
-#include "gltf/contents.h"
-#include "gltf/draco_primitives.h"
-#include "gltf/meshopt_views.h"
-#include "prt/unread.h"
+#include "runtime/scene/gltf/contents.h"
+#include "runtime/scene/gltf/draco_primitives.h"
+#include "runtime/scene/gltf/meshopt_views.h"
+#include "runtime/scene/gltf/unread.h"
 
 #include <algorithm>
 #include <array>

@@ -1,11 +1,11 @@
 // Writes textures of surfaces into glTF files.
 
-#include "prt/gltf.h"
+#include "prt/gltf/gltf.h"
 
-#include "gltf/make_meshes_unique.h"
-#include "gltf/material_choices.h"
-#include "gltf/transfer_json.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "runtime/scene/gltf/make_meshes_unique.h"
+#include "runtime/scene/gltf/material_choices.h"
+#include "runtime/scene/gltf/transfer_json.h"
 
 #include <map>
 #include <set>

@@ -1,10 +1,10 @@
 // Reads and writes raw transfer in glTF files: PRTKIT_transfer of docs/format.md.
 
-#include "prt/stored_transfer.h"
+#include "runtime/scene/gltf/stored_transfer.h"
 
-#include "gltf/allowance.h"
-#include "gltf/make_meshes_unique.h"
-#include "gltf/transfer_json.h"
+#include "runtime/scene/gltf/allowance.h"
+#include "runtime/scene/gltf/make_meshes_unique.h"
+#include "runtime/scene/gltf/transfer_json.h"
 
 #include <algorithm>
 

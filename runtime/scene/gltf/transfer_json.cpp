@@ -1,7 +1,7 @@
 // Common parts of the transfer extensions: the bake record, layouts, and views of floats.
-#include "gltf/transfer_json.h"
+#include "runtime/scene/gltf/transfer_json.h"
 
-#include "gltf/accessor.h"
+#include "runtime/scene/gltf/accessor.h"
 
 #include <glm/gtc/packing.hpp>
 

@@ -2,10 +2,10 @@
 
 // Common JSON of the transfer extensions of prtkit.
 
-#include "gltf/contents.h"
-#include "prt/clustered_bases.h"
-#include "prt/gltf.h"
-#include "prt/support/error.h"
+#include "prt/core/clustered_bases.h"
+#include "prt/core/error.h"
+#include "prt/gltf/gltf.h"
+#include "runtime/scene/gltf/contents.h"
 
 #include <cstddef>
 #include <cstdint>

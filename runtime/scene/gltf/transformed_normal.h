@@ -2,7 +2,7 @@
 
 // Transformation of normals.
 
-#include "triangle_normal.h"
+#include "runtime/scene/triangle_normal.h"
 
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>

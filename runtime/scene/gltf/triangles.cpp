@@ -1,9 +1,9 @@
 // Reads triangles from lists, strips and fans.
-#include "gltf/triangles.h"
+#include "runtime/scene/gltf/triangles.h"
 
-#include "gltf/accessor.h"
-#include "prt/support/counted.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "runtime/scene/gltf/accessor.h"
+#include "runtime/support/counted.h"
 
 #include <numeric>
 #include <string>

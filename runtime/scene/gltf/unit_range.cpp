@@ -1,5 +1,5 @@
 // Clamps factors that glTF requires in 0..1.
-#include "gltf/unit_range.h"
+#include "runtime/scene/gltf/unit_range.h"
 
 namespace prt {
 

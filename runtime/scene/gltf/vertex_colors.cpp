@@ -1,9 +1,9 @@
 // Writes colors and other vertex attributes into glTF files.
 
-#include "prt/gltf.h"
+#include "prt/gltf/gltf.h"
 
-#include "gltf/make_meshes_unique.h"
-#include "gltf/transfer_json.h"
+#include "runtime/scene/gltf/make_meshes_unique.h"
+#include "runtime/scene/gltf/transfer_json.h"
 
 #include <algorithm>
 

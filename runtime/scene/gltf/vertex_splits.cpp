@@ -1,11 +1,11 @@
 // Rewrites primitives with vertices split for new texture coordinates.
 
-#include "prt/vertex_splits.h"
+#include "runtime/scene/gltf/vertex_splits.h"
 
-#include "gltf/gathered_accessor.h"
-#include "gltf/make_meshes_unique.h"
-#include "gltf/reparse.h"
-#include "gltf/transfer_json.h"
+#include "runtime/scene/gltf/gathered_accessor.h"
+#include "runtime/scene/gltf/make_meshes_unique.h"
+#include "runtime/scene/gltf/reparse.h"
+#include "runtime/scene/gltf/transfer_json.h"
 
 #include <algorithm>
 #include <set>

@@ -1,11 +1,11 @@
 // Tests transfer of a moving model, in the frames of its vertices, and lobes that rotate with it.
 
-#include "prt/pose_bake.h"
+#include "prt/bake/pose_bake.h"
 
-#include "prt/error_measures.h"
-#include "prt/lobe_fit.h"
-#include "prt/sh.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "prt/core/error_measures.h"
+#include "prt/core/sh.h"
+#include "prt/fit/lobe_fit.h"
 #include "support/glb_file.h"
 
 #include <glm/geometric.hpp>

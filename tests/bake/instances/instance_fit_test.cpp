@@ -1,7 +1,7 @@
 // Tests least-squares fits of instance factors: they are recovered if the light has factors, for any subset
 // of samples; otherwise samples count by their areas.
 
-#include "products/instances/instance_fit.h"
+#include "bake/products/instances/instance_fit.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

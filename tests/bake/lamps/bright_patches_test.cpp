@@ -1,8 +1,8 @@
 // Connections to patches that lamps light.
 
-#include "pipeline/bright_patches.h"
-#include "prt/bake.h"
-#include "prt/error_measures.h"
+#include "bake/pipeline/bright_patches.h"
+#include "prt/bake/bake.h"
+#include "prt/core/error_measures.h"
 #include "support/scene_builder.h"
 
 #include <gtest/gtest.h>

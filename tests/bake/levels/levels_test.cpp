@@ -1,12 +1,12 @@
 // Tests light of level 0 on coarser levels: nearest points, exactness, closed forms, and comparison with a
 // separate bake of a level.
 
-#include "products/levels/nearest_points.h"
-#include "prt/error_measures.h"
-#include "prt/level_bake.h"
-#include "prt/light.h"
-#include "prt/receivers.h"
-#include "prt/support/error.h"
+#include "bake/products/levels/nearest_points.h"
+#include "bake/scene/receivers.h"
+#include "prt/bake/level_bake.h"
+#include "prt/core/error.h"
+#include "prt/core/error_measures.h"
+#include "prt/core/light.h"
 #include "support/scene_builder.h"
 
 #include <glm/geometric.hpp>

@@ -1,8 +1,8 @@
 // Occlusion volumes of objects, baked, against closed forms and rays.
 
-#include "prt/ambient_occlusion.h"
+#include "prt/bake/ambient_occlusion.h"
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 #include "support/scene_builder.h"
 
 #include <glm/geometric.hpp>

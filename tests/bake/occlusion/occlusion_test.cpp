@@ -1,8 +1,8 @@
 // Ambient occlusion, obscurance and bent normals against closed forms and quadrature.
 
-#include "prt/ambient_occlusion.h"
+#include "prt/bake/ambient_occlusion.h"
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 #include "support/quadrature.h"
 #include "support/scene_builder.h"
 

@@ -1,7 +1,7 @@
 // The reference against closed forms, and the baker against the reference.
 
-#include "prt/path_tracer.h"
-#include "prt/ray_renderer.h"
+#include "bake/reference/path_tracer.h"
+#include "bake/reference/ray_renderer.h"
 #include "support/scene_builder.h"
 
 #include <glm/common.hpp>

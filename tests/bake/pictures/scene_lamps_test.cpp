@@ -1,12 +1,12 @@
 // Lamps in the reference against closed forms, and the baker's lamps against the reference.
 
-#include "prt/scene_lamps.h"
+#include "bake/reference/scene_lamps.h"
 
-#include "prt/incident_reference.h"
-#include "prt/path_tracer.h"
-#include "prt/sh.h"
-#include "prt/support/error.h"
-#include "prt/volume_bake.h"
+#include "bake/reference/incident_reference.h"
+#include "bake/reference/path_tracer.h"
+#include "prt/bake/volume_bake.h"
+#include "prt/core/error.h"
+#include "prt/core/sh.h"
 #include "support/scene_builder.h"
 
 #include <glm/geometric.hpp>

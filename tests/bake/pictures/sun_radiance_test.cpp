@@ -1,8 +1,8 @@
 // Suns shadowed by rays: closed forms of open and half covered discs, and of sheets that let light through.
 
-#include "prt/sun_radiance.h"
+#include "bake/pipeline/sun_radiance.h"
 
-#include "prt/bake.h"
+#include "prt/bake/bake.h"
 #include "support/scene_builder.h"
 
 #include <glm/geometric.hpp>

@@ -1,11 +1,11 @@
 // Tests suns in pictures by rays: closed forms of shadows, and comparison with the path tracer and light at
 // vertices.
 
-#include "prt/light_meter.h"
-#include "prt/path_tracer.h"
-#include "prt/ray_renderer.h"
-#include "prt/sun_radiance.h"
-#include "prt/tone_map.h"
+#include "bake/pipeline/sun_radiance.h"
+#include "bake/reference/light_meter.h"
+#include "bake/reference/path_tracer.h"
+#include "bake/reference/ray_renderer.h"
+#include "prt/render/tone_map.h"
 #include "support/scene_builder.h"
 
 #include <glm/geometric.hpp>

@@ -1,6 +1,6 @@
 // Tests splitting of triangles: no cracks, no hanging nodes, no thin triangles.
 
-#include "refine/bisection.h"
+#include "bake/refine/bisection.h"
 
 #include "support/scene_builder.h"
 

@@ -1,9 +1,9 @@
 // Tests the decision to split triangles.
 
-#include "prt/refine.h"
+#include "prt/bake/refine.h"
 
-#include "prt/support/error.h"
-#include "prt/surface_reference.h"
+#include "bake/reference/surface_reference.h"
+#include "prt/core/error.h"
 #include "support/scene_builder.h"
 
 #include <glm/geometric.hpp>

@@ -1,8 +1,8 @@
 // Tests occlusion against a tracer that shares only Embree with the baker (DESIGN, "What is blocked"):
 // one-sided surfaces block from both sides, and rays start on the open side of every face.
 
-#include "prt/bake.h"
-#include "scene/ray_starts.h"
+#include "bake/scene/ray_starts.h"
+#include "prt/bake/bake.h"
 #include "support/reference_tracer.h"
 #include "support/scene_builder.h"
 

@@ -1,6 +1,6 @@
 // Tests notices about materials that the bake simplifies.
 
-#include "scene/material_notices.h"
+#include "bake/scene/material_notices.h"
 
 #include <gtest/gtest.h>
 

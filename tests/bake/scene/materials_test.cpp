@@ -1,10 +1,10 @@
 // Tests cut-outs, blended surfaces, leaves, receivers inside geometry, and textures at the hit.
 
-#include "prt/bake.h"
-#include "prt/light.h"
-#include "prt/sh.h"
-#include "prt/support/error.h"
-#include "prt/surfaces.h"
+#include "bake/scene/surfaces.h"
+#include "prt/bake/bake.h"
+#include "prt/core/error.h"
+#include "prt/core/light.h"
+#include "prt/core/sh.h"
 #include "support/scene_builder.h"
 #include "support/traced.h"
 

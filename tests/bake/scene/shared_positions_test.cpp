@@ -1,6 +1,6 @@
 // Vertices that are split for other reasons than light.
 
-#include "prt/bake.h"
+#include "prt/bake/bake.h"
 #include "support/scene_builder.h"
 
 #include <glm/geometric.hpp>

@@ -1,8 +1,8 @@
 // Double-sided surfaces, and surfaces that a mesh holds twice.
 
-#include "prt/sides.h"
+#include "bake/refine/sides.h"
 
-#include "scene/opposite_triangles.h"
+#include "bake/scene/opposite_triangles.h"
 #include "support/scene_builder.h"
 
 #include <glm/geometric.hpp>

@@ -1,8 +1,8 @@
 // The budget of errors where every cause is known in closed form.
 
-#include "prt/bake.h"
-#include "prt/error_budget.h"
-#include "prt/sh.h"
+#include "bake/studies/error_budget.h"
+#include "prt/bake/bake.h"
+#include "prt/core/sh.h"
 #include "support/scene_builder.h"
 
 #include <gtest/gtest.h>

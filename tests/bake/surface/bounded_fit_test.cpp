@@ -1,12 +1,12 @@
 // Tests that fitted light stays within physical bounds: uniform light 1 results in 0..1, closed rooms are
 // dark, white furnaces are 1.
 
-#include "prt/bake.h"
-#include "prt/light.h"
-#include "prt/support/error.h"
-#include "prt/transfer.h"
+#include "bake/surface_fit/value_limits.h"
+#include "prt/bake/bake.h"
+#include "prt/core/error.h"
+#include "prt/core/light.h"
+#include "prt/core/transfer.h"
 #include "support/scene_builder.h"
-#include "surface_fit/value_limits.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

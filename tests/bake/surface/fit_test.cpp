@@ -1,9 +1,9 @@
 // Tests least-squares fits of vertex values to samples over the surface.
 
-#include "surface_fit/fit_choice.h"
-#include "surface_fit/fit_solver.h"
+#include "bake/surface_fit/fit_choice.h"
+#include "bake/surface_fit/fit_solver.h"
 
-#include "prt/trace_scene.h"
+#include "bake/scene/trace_scene.h"
 #include "support/scene_builder.h"
 #include "uneven_floor.h"
 

@@ -1,11 +1,11 @@
 // Tests bakes whose vertices are fitted to the surface, against closed forms and denser bakes.
 
-#include "surface_fit/surface_samples.h"
+#include "bake/surface_fit/surface_samples.h"
 
-#include "prt/bake.h"
-#include "prt/make_tracer.h"
-#include "prt/sh.h"
-#include "prt/trace_receivers.h"
+#include "bake/trace/trace_receivers.h"
+#include "bake/tracers/make_tracer.h"
+#include "prt/bake/bake.h"
+#include "prt/core/sh.h"
 #include "support/scene_builder.h"
 #include "uneven_floor.h"
 

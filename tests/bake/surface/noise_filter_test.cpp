@@ -1,7 +1,7 @@
 // Light at receivers without the noise of its rays.
 
-#include "prt/bake.h"
-#include "prt/error_measures.h"
+#include "prt/bake/bake.h"
+#include "prt/core/error_measures.h"
 #include "support/scene_builder.h"
 
 #include <gtest/gtest.h>

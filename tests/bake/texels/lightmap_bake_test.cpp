@@ -1,9 +1,9 @@
 // Tests transfer of texels: closed forms, energy, and scenes that cannot be baked into texels.
 
-#include "prt/lightmap_bake.h"
-#include "prt/sh.h"
-#include "prt/support/error.h"
-#include "prt/unwrap.h"
+#include "bake/products/lightmaps/unwrap.h"
+#include "prt/bake/lightmap_bake.h"
+#include "prt/core/error.h"
+#include "prt/core/sh.h"
 #include "support/scene_builder.h"
 
 #include <glm/geometric.hpp>

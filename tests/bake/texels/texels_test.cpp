@@ -1,11 +1,11 @@
 // Tests texels as receivers: their positions, gutters between charts, and seams.
 
-#include "products/lightmaps/gutters.h"
-#include "products/lightmaps/seams.h"
-#include "products/lightmaps/texel_samples.h"
-#include "prt/ambient_occlusion.h"
-#include "prt/support/error.h"
-#include "prt/unwrap.h"
+#include "bake/products/lightmaps/gutters.h"
+#include "bake/products/lightmaps/seams.h"
+#include "bake/products/lightmaps/texel_samples.h"
+#include "bake/products/lightmaps/unwrap.h"
+#include "prt/bake/ambient_occlusion.h"
+#include "prt/core/error.h"
 #include "support/scene_builder.h"
 
 #include <glm/common.hpp>

@@ -1,17 +1,17 @@
 // A GPU that fails on the way: the rest is traced on the CPU.
 
-#include "tracers/fallback_tracer.h"
+#include "bake/tracers/fallback_tracer.h"
 
-#include "pipeline/fitted_light.h"
-#include "plan/plan.h"
-#include "prt/gpu_failure.h"
-#include "prt/sh_basis.h"
-#include "prt/trace_receivers.h"
+#include "bake/device/gpu_failure.h"
+#include "bake/pipeline/fitted_light.h"
+#include "bake/plan/plan.h"
+#include "bake/trace/embree_tracer.h"
+#include "bake/trace/lamp_light.h"
+#include "bake/trace/trace_receivers.h"
+#include "bake/trace/vector_sums.h"
+#include "prt/core/sh_basis.h"
 #include "support/scene_builder.h"
 #include "support/traced.h"
-#include "trace/embree_tracer.h"
-#include "trace/lamp_light.h"
-#include "trace/vector_sums.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // Compares bounces on the GPU with those on the CPU.
 
-#include "prt/sh_basis.h"
-#include "prt/trace_scene.h"
+#include "bake/scene/trace_scene.h"
+#include "bake/trace/vector_sums.h"
+#include "bake/trace_gpu/gpu_gather.h"
+#include "prt/core/sh_basis.h"
 #include "support/gpu_scenes.h"
 #include "support/scene_builder.h"
 #include "support/vulkan_choice.h"
-#include "trace/vector_sums.h"
-#include "trace_gpu/gpu_gather.h"
 
 #include <gtest/gtest.h>
 

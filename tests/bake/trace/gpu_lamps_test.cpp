@@ -1,12 +1,12 @@
 // Tests light of lamps on the GPU: against closed forms, and against the CPU for every lamp at every
 // receiver. Both use equal samples, so that only grazing rays differ.
 
-#include "prt/bake.h"
+#include "bake/trace/embree_tracer.h"
+#include "bake/trace/lamp_light.h"
+#include "bake/trace_gpu/vulkan_tracer.h"
+#include "prt/bake/bake.h"
 #include "support/scene_builder.h"
 #include "support/vulkan_choice.h"
-#include "trace/embree_tracer.h"
-#include "trace/lamp_light.h"
-#include "trace_gpu/vulkan_tracer.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

@@ -1,12 +1,12 @@
 // Compares sums of vectors on the GPU with sums over Embree's hits.
 
-#include "prt/sh_basis.h"
+#include "bake/trace/embree_tracer.h"
+#include "bake/trace/vector_sums.h"
+#include "bake/trace_gpu/vulkan_tracer.h"
+#include "prt/core/sh_basis.h"
 #include "support/gpu_scenes.h"
 #include "support/traced.h"
 #include "support/vulkan_choice.h"
-#include "trace/embree_tracer.h"
-#include "trace/vector_sums.h"
-#include "trace_gpu/vulkan_tracer.h"
 
 #include <gtest/gtest.h>
 

@@ -1,16 +1,16 @@
 // The GPU baker against the CPU baker, on a software device; scenes are small.
 
-#include "prt/bake.h"
-#include "prt/error_measures.h"
-#include "prt/sh_basis.h"
-#include "prt/support/error.h"
+#include "bake/trace/embree_tracer.h"
+#include "bake/trace_gpu/vulkan_tracer.h"
+#include "prt/bake/bake.h"
+#include "prt/core/error.h"
+#include "prt/core/error_measures.h"
+#include "prt/core/sh_basis.h"
 #include "support/bounce_off_triangle.h"
 #include "support/gpu_scenes.h"
 #include "support/scene_builder.h"
 #include "support/traced.h"
 #include "support/vulkan_choice.h"
-#include "trace/embree_tracer.h"
-#include "trace_gpu/vulkan_tracer.h"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
 // Depth maps on the GPU against rays of the CPU. Here OpenGL is Mesa's software rasteriser; scenes are small.
 
-#include "prt/bake.h"
-#include "prt/error_measures.h"
-#include "prt/support/error.h"
-#include "raster/gl_rasterizer.h"
+#include "bake/raster/gl_rasterizer.h"
+#include "bake/trace/embree_tracer.h"
+#include "prt/bake/bake.h"
+#include "prt/core/error.h"
+#include "prt/core/error_measures.h"
 #include "support/gpu_scenes.h"
 #include "support/scene_builder.h"
 #include "support/traced.h"
-#include "trace/embree_tracer.h"
 
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>

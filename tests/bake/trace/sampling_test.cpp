@@ -1,10 +1,10 @@
 // Tests the samples of rays and their sequences.
 
-#include "prt/sh.h"
+#include "bake/trace/chunk_kernels.h"
+#include "bake/trace/embree_tracer.h"
+#include "bake/trace/sample_sequence.h"
+#include "prt/core/sh.h"
 #include "support/scene_builder.h"
-#include "trace/chunk_kernels.h"
-#include "trace/embree_tracer.h"
-#include "trace/sample_sequence.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

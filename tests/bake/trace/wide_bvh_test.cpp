@@ -1,6 +1,6 @@
 // Tests our bounding volume hierarchy: its contents and their number formats.
 
-#include "trace_gpu/wide_bvh.h"
+#include "bake/trace_gpu/wide_bvh.h"
 
 #include <gtest/gtest.h>
 

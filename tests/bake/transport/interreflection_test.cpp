@@ -1,10 +1,10 @@
 // Tests bounces against closed forms and brute force.
 
-#include "plan/available_memory.h"
-#include "prt/bake.h"
-#include "prt/gltf.h"
-#include "prt/light.h"
-#include "prt/support/error.h"
+#include "bake/plan/available_memory.h"
+#include "prt/bake/bake.h"
+#include "prt/core/error.h"
+#include "prt/core/light.h"
+#include "prt/gltf/gltf.h"
 #include "support/bounce_off_triangle.h"
 #include "support/glb_file.h"
 #include "support/scene_builder.h"

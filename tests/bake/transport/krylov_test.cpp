@@ -1,6 +1,6 @@
 // Tests the solver of infinite bounces with operators whose solutions are known.
 
-#include "transport/krylov.h"
+#include "bake/transport/krylov.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

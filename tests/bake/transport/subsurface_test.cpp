@@ -1,11 +1,11 @@
 // Tests dipole diffusion and media.
 
-#include "prt/bake.h"
-#include "prt/light.h"
-#include "prt/bake_options.h"
-#include "prt/support/error.h"
+#include "bake/transport/diffusion.h"
+#include "prt/bake/bake.h"
+#include "prt/bake/bake_options.h"
+#include "prt/core/error.h"
+#include "prt/core/light.h"
 #include "support/scene_builder.h"
-#include "transport/diffusion.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // Tests unwrapping: every surface point gets a unique coordinate.
 
-#include "prt/unwrap.h"
+#include "bake/products/lightmaps/unwrap.h"
 
-#include "products/lightmaps/chart_packing.h"
-#include "products/lightmaps/texel_samples.h"
-#include "prt/support/error.h"
+#include "bake/products/lightmaps/chart_packing.h"
+#include "bake/products/lightmaps/texel_samples.h"
+#include "prt/core/error.h"
 #include "support/gpu_scenes.h"
 #include "support/scene_builder.h"
 

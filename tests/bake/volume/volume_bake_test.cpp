@@ -1,10 +1,10 @@
 // Probes against closed forms: the open, a half space, a furnace, walls, lamps.
 
-#include "prt/incident_reference.h"
-#include "prt/sh.h"
-#include "prt/support/error.h"
-#include "prt/transfer.h"
-#include "prt/volume_bake.h"
+#include "bake/reference/incident_reference.h"
+#include "prt/bake/volume_bake.h"
+#include "prt/core/error.h"
+#include "prt/core/sh.h"
+#include "prt/core/transfer.h"
 #include "support/scene_builder.h"
 
 #include <glm/geometric.hpp>

@@ -1,9 +1,9 @@
 // Tests that no sky light enters closed rooms, for all walls, spacings and positions of the grid.
 
-#include "products/volumes/visibility.h"
-#include "prt/sh.h"
-#include "prt/transfer.h"
-#include "prt/volume_bake.h"
+#include "bake/products/volumes/visibility.h"
+#include "prt/bake/volume_bake.h"
+#include "prt/core/sh.h"
+#include "prt/core/transfer.h"
 #include "support/scene_builder.h"
 
 #include <glm/common.hpp>

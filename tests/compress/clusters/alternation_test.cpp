@@ -1,8 +1,8 @@
 // Tests alternating optimisation: codes for given clusters, and clusters for given codes.
 
-#include "clusters/clustering.h"
-#include "coding/refit.h"
-#include "metric/frame.h"
+#include "compress/clusters/clustering.h"
+#include "compress/coding/refit.h"
+#include "compress/metric/frame.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Tests clustered PCA on points whose clusters are known.
 
-#include "clusters/clustering.h"
-#include "metric/frame.h"
+#include "compress/clusters/clustering.h"
+#include "compress/metric/frame.h"
 
 #include <gtest/gtest.h>
 

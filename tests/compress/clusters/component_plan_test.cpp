@@ -1,6 +1,6 @@
 // How weights share their bits.
 
-#include "clusters/component_plan.h"
+#include "compress/clusters/component_plan.h"
 
 #include <gtest/gtest.h>
 

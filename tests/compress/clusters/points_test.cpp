@@ -1,6 +1,6 @@
 // Tests blocks of points: as floats, and rounded to 16 bits.
 
-#include "clusters/points.h"
+#include "compress/clusters/points.h"
 
 #include <gtest/gtest.h>
 

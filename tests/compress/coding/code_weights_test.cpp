@@ -1,6 +1,6 @@
 // Tests packing of weights with the bits of their grids: it is lossless, and does not change other weights.
 
-#include "coding/code_weights.h"
+#include "compress/coding/code_weights.h"
 
 #include <gtest/gtest.h>
 

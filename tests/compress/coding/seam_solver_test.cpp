@@ -1,7 +1,7 @@
 // The seam solver on meshes so small that eq. 28 (docs/math.md) can be lowered by other means: its sum is
 // written here once more, in double, from its definition.
 
-#include "coding/seams.h"
+#include "compress/coding/seams.h"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>

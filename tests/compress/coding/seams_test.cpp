@@ -1,8 +1,8 @@
 // Tests seams between clusters and between charts.
 
-#include "prt/compress.h"
-#include "prt/error_measures.h"
-#include "prt/support/error.h"
+#include "prt/compress/compress.h"
+#include "prt/core/error.h"
+#include "prt/core/error_measures.h"
 
 #include <gtest/gtest.h>
 

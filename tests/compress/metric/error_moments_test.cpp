@@ -1,9 +1,9 @@
 // Tests errors over all rotations of a light.
 
-#include "prt/error_moments.h"
+#include "compress/metric/error_moments.h"
 
-#include "prt/error_measures.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "prt/core/error_measures.h"
 
 #include <gtest/gtest.h>
 

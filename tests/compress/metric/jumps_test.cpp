@@ -1,8 +1,8 @@
 // Tests jumps of contrast between neighbouring receivers.
 
-#include "prt/jumps.h"
+#include "compress/metric/jumps.h"
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 
 #include <gtest/gtest.h>
 

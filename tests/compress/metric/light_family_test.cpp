@@ -1,11 +1,11 @@
 // Tests the light families of the metric.
 
-#include "metric/light_family.h"
+#include "compress/metric/light_family.h"
 
-#include "prt/error_measures.h"
-#include "prt/sh.h"
-#include "prt/sh_rotation.h"
-#include "prt/standard_skies.h"
+#include "compress/metric/standard_skies.h"
+#include "prt/core/error_measures.h"
+#include "prt/core/sh.h"
+#include "prt/core/sh_rotation.h"
 
 #include <Eigen/Cholesky>
 #include <glm/geometric.hpp>

@@ -1,9 +1,9 @@
 // Tests metrics of lights against brute force.
 
-#include "prt/light_metric.h"
+#include "prt/compress/light_metric.h"
 
-#include "prt/error_measures.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "prt/core/error_measures.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

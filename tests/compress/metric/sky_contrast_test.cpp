@@ -1,9 +1,9 @@
 // Contrast under skies against sums over receivers.
 
-#include "metric/sky_contrast.h"
+#include "compress/metric/sky_contrast.h"
 
-#include "prt/sh.h"
-#include "prt/transfer.h"
+#include "prt/core/sh.h"
+#include "prt/core/transfer.h"
 
 #include <gtest/gtest.h>
 

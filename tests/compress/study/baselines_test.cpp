@@ -1,8 +1,8 @@
 // Tests the baselines of the study.
 
-#include "prt/baselines.h"
+#include "compress/study/baselines.h"
 
-#include "prt/error_measures.h"
+#include "prt/core/error_measures.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Tests colors that show clusters and errors of receivers.
 
-#include "prt/receiver_colors.h"
+#include "compress/study/receiver_colors.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

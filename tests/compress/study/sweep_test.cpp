@@ -1,6 +1,6 @@
 // Tests sweeps over compression settings.
 
-#include "prt/sweep.h"
+#include "compress/study/sweep.h"
 
 #include <gtest/gtest.h>
 

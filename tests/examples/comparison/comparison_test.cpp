@@ -1,8 +1,8 @@
 // The comparison of methods: a small run.
 
-#include "report.h"
+#include "cli/report/report.h"
 
-#include "prt/support/file.h"
+#include "runtime/support/file.h"
 
 #include "support/glb_file.h"
 #include "support/scene_builder.h"

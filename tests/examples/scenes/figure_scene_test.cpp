@@ -1,6 +1,6 @@
 // Tests the figure of example_scenes: its size, and that its feet do not slide on the passing ground.
 
-#include "prt/animation.h"
+#include "prt/gltf/animation.h"
 #include "support/temporary_folder.h"
 
 #include <glm/geometric.hpp>

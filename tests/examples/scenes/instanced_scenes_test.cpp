@@ -1,8 +1,8 @@
 // Tests the forest and the street of example_scenes: the requested number of instances, of few meshes, on the
 // ground.
 
-#include "prt/gltf.h"
-#include "prt/instances_gltf.h"
+#include "prt/gltf/gltf.h"
+#include "prt/gltf/transfer_gltf.h"
 #include "support/temporary_folder.h"
 
 #include <gtest/gtest.h>

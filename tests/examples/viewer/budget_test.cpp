@@ -2,7 +2,7 @@
 
 #include "core/budget_work.h"
 
-#include "prt/receiver_colors.h"
+#include "compress/study/receiver_colors.h"
 #include "support/scene_builder.h"
 
 #include <gtest/gtest.h>

@@ -3,8 +3,8 @@
 #include "ui/commands.h"
 #include "ui/controls.h"
 
-#include "prt/gl_context.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "prt/gl/gl_context.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

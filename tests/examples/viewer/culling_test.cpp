@@ -2,7 +2,7 @@
 
 #include "pictures/triangle_clusters.h"
 
-#include "prt/camera.h"
+#include "prt/render/camera.h"
 #include "support/scene_builder.h"
 
 #include <glm/geometric.hpp>

@@ -3,8 +3,8 @@
 #include "gpu/offscreen.h"
 #include "pictures/frame_renderer.h"
 
-#include "prt/gl_renderer.h"
-#include "prt/instances_gltf.h"
+#include "prt/gl/gl_renderer.h"
+#include "prt/gltf/transfer_gltf.h"
 #include "support/instanced_model.h"
 #include "support/temporary_folder.h"
 

@@ -2,9 +2,9 @@
 
 #include "core/light_rig.h"
 
-#include "prt/image_file.h"
-#include "prt/sh.h"
-#include "prt/sh_basis.h"
+#include "prt/core/sh.h"
+#include "prt/core/sh_basis.h"
+#include "prt/image/image_file.h"
 #include "support/temporary_folder.h"
 
 #include <glm/geometric.hpp>

@@ -2,10 +2,10 @@
 
 #include "examples/viewer/lightmap_files.h"
 
-#include "prt/compress.h"
-#include "prt/lightmap_bake.h"
-#include "prt/lightmap_file.h"
-#include "prt/unwrap.h"
+#include "bake/products/lightmaps/unwrap.h"
+#include "prt/bake/lightmap_bake.h"
+#include "prt/compress/compress.h"
+#include "prt/render/lightmap_file.h"
 #include "support/glb_file.h"
 #include "support/made_once.h"
 #include "support/scene_builder.h"

@@ -7,12 +7,12 @@
 #include "examples/viewer/lightmap_files.h"
 #include "pictures/frame_renderer.h"
 
-#include "prt/gl_context.h"
-#include "prt/gl_renderer.h"
-#include "prt/lightmap_bake.h"
-#include "prt/lightmap_file.h"
-#include "prt/lightmap_lookup.h"
-#include "prt/ray_renderer.h"
+#include "bake/reference/ray_renderer.h"
+#include "prt/bake/lightmap_bake.h"
+#include "prt/gl/gl_context.h"
+#include "prt/gl/gl_renderer.h"
+#include "prt/render/lightmap_file.h"
+#include "runtime/render/lightmap_lookup.h"
 #include "support/scene_builder.h"
 
 #include <glm/common.hpp>

@@ -6,10 +6,10 @@
 #include "script/script.h"
 #include "ui/controls.h"
 
-#include "prt/gl_context.h"
-#include "prt/image_file.h"
-#include "prt/support/error.h"
-#include "prt/support/file.h"
+#include "prt/core/error.h"
+#include "prt/gl/gl_context.h"
+#include "prt/image/image_file.h"
+#include "runtime/support/file.h"
 #include "support/glb_file.h"
 #include "support/scene_builder.h"
 

@@ -3,13 +3,13 @@
 #include "gpu/offscreen.h"
 #include "pictures/frame_renderer.h"
 
-#include "prt/bake.h"
-#include "prt/compress.h"
-#include "prt/gl_renderer.h"
-#include "prt/path_tracer.h"
-#include "prt/ray_renderer.h"
-#include "prt/receiver_colors.h"
-#include "prt/tone_map.h"
+#include "bake/reference/path_tracer.h"
+#include "bake/reference/ray_renderer.h"
+#include "compress/study/receiver_colors.h"
+#include "prt/bake/bake.h"
+#include "prt/compress/compress.h"
+#include "prt/gl/gl_renderer.h"
+#include "prt/render/tone_map.h"
 #include "support/scene_builder.h"
 
 #include <epoxy/gl.h>

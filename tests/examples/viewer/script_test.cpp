@@ -2,12 +2,12 @@
 
 #include "script/script.h"
 
-#include "prt/bake.h"
-#include "prt/compress.h"
-#include "prt/gltf.h"
-#include "prt/image_file.h"
-#include "prt/support/error.h"
-#include "prt/support/file.h"
+#include "prt/bake/bake.h"
+#include "prt/compress/compress.h"
+#include "prt/core/error.h"
+#include "prt/gltf/gltf.h"
+#include "prt/image/image_file.h"
+#include "runtime/support/file.h"
 #include "support/glb_file.h"
 #include "support/scene_builder.h"
 #include "support/temporary_folder.h"

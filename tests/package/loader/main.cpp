@@ -1,8 +1,8 @@
 // Loads a compressed model and relights it; links prt::gltf and prt::shader alone.
 
-#include "prt/cluster_lighting.h"
-#include "prt/gltf.h"
-#include "prt/shader_source.h"
+#include "prt/core/cluster_lighting.h"
+#include "prt/gltf/gltf.h"
+#include "prt/shader/shader_source.h"
 
 #include <cstdio>
 

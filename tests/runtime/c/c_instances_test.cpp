@@ -2,8 +2,8 @@
 
 #include "prt/prt.h"
 
-#include "prt/gltf.h"
-#include "prt/instances_gltf.h"
+#include "prt/gltf/gltf.h"
+#include "prt/gltf/transfer_gltf.h"
 #include "support/instanced_model.h"
 
 #include <glm/geometric.hpp>

@@ -2,9 +2,9 @@
 
 #include "prt/prt.h"
 
-#include "prt/gltf.h"
-#include "prt/light.h"
-#include "prt/predictors.h"
+#include "prt/core/light.h"
+#include "prt/gltf/gltf.h"
+#include "runtime/scene/predictors.h"
 #include "support/glb_file.h"
 #include "support/predicted.h"
 #include "support/temporary_folder.h"

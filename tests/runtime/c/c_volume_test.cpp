@@ -2,8 +2,8 @@
 
 #include "prt/prt.h"
 
-#include "prt/gltf.h"
-#include "prt/volume_relighter.h"
+#include "prt/core/volume_relighter.h"
+#include "prt/gltf/gltf.h"
 #include "support/glb_file.h"
 #include "support/random_volume.h"
 #include "support/volume_model.h"

@@ -1,6 +1,6 @@
 // Tests environment maps with invalid pixels, and invalid directions.
 
-#include "prt/environment.h"
+#include "prt/core/environment.h"
 #include "support/extremes.h"
 
 namespace prt {

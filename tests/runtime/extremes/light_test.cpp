@@ -1,8 +1,8 @@
 // Tests that every function that makes or changes lighting returns finite coefficients or throws.
 
-#include "prt/dering.h"
-#include "prt/light.h"
-#include "prt/suns.h"
+#include "prt/core/dering.h"
+#include "prt/core/light.h"
+#include "prt/fit/suns.h"
 #include "support/extremes.h"
 
 namespace prt {

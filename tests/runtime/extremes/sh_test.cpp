@@ -1,10 +1,10 @@
 // Tests spherical harmonics with invalid numbers. Rotations reject invalid matrices. All other functions are
-// arithmetic on vectors, which prt/sh.h and prt/sh.h document as unchecked: non-finite values
+// arithmetic on vectors, which prt/core/sh.h and prt/core/sh.h document as unchecked: non-finite values
 // propagate, and the functions must only terminate and stay within their arrays (checked by the sanitizers).
 
-#include "prt/sh.h"
-#include "prt/light.h"
-#include "prt/sh_rotation.h"
+#include "prt/core/light.h"
+#include "prt/core/sh.h"
+#include "prt/core/sh_rotation.h"
 #include "support/extremes.h"
 
 #include <climits>

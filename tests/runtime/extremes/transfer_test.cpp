@@ -1,10 +1,10 @@
 // Tests transfer and its measures with invalid numbers. Measures reject them; forming and evaluating are
-// per-frame arithmetic, in which non-finite values propagate (prt/cluster_lighting.h), and which must stay
-// within their arrays.
+// per-frame arithmetic, in which non-finite values propagate (prt/core/cluster_lighting.h), and which must
+// stay within their arrays.
 
-#include "prt/adjacency.h"
-#include "prt/cluster_lighting.h"
-#include "prt/error_measures.h"
+#include "prt/core/adjacency.h"
+#include "prt/core/cluster_lighting.h"
+#include "prt/core/error_measures.h"
 #include "support/extremes.h"
 
 #include <cstring>

@@ -1,11 +1,11 @@
 // The fit of lobes to transfer vectors, and their bytes.
 
-#include "prt/lobe_fit.h"
+#include "prt/fit/lobe_fit.h"
 
-#include "prt/sh.h"
-#include "prt/sh_rotation.h"
-#include "prt/support/error.h"
-#include "sh_gradient.h"
+#include "prt/core/error.h"
+#include "prt/core/sh.h"
+#include "prt/core/sh_rotation.h"
+#include "runtime/fit/sh_gradient.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>

@@ -1,9 +1,9 @@
 // Tests images without suns, and images that break careless arithmetic.
 
-#include "prt/suns.h"
+#include "prt/fit/suns.h"
 
-#include "prt/sh.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "prt/core/sh.h"
 #include "support/extremes.h"
 #include "support/painted_sky.h"
 

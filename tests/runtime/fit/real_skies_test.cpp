@@ -1,8 +1,8 @@
 // Tests suns of photographed skies with one sun each.
 
-#include "prt/suns.h"
+#include "prt/fit/suns.h"
 
-#include "prt/image_file.h"
+#include "prt/image/image_file.h"
 #include "support/temporary_folder.h"
 
 #include <glm/geometric.hpp>

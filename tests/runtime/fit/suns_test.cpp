@@ -1,9 +1,9 @@
 // Suns painted into skies, found again.
 
-#include "prt/suns.h"
+#include "prt/fit/suns.h"
 
-#include "prt/light.h"
-#include "prt/sh.h"
+#include "prt/core/light.h"
+#include "prt/core/sh.h"
 #include "support/painted_sky.h"
 
 #include <glm/geometric.hpp>

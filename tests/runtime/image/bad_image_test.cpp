@@ -1,11 +1,11 @@
 // Images that lie, end early, never end, or are too bright.
-#include "exr.h"
-#include "image_limits.h"
-#include "png_check.h"
-#include "prt/environment.h"
-#include "prt/image_file.h"
-#include "prt/support/error.h"
-#include "prt/support/file.h"
+#include "prt/core/environment.h"
+#include "prt/core/error.h"
+#include "prt/image/image_file.h"
+#include "runtime/image/exr.h"
+#include "runtime/image/image_limits.h"
+#include "runtime/image/png_check.h"
+#include "runtime/support/file.h"
 #include "support/temporary_folder.h"
 
 #include <gtest/gtest.h>

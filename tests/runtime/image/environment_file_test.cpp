@@ -1,10 +1,10 @@
 // Tests environment files: layouts, formats and their pixels.
 
-#include "prt/image_file.h"
+#include "prt/image/image_file.h"
 
-#include "prt/sh_basis.h"
-#include "prt/support/error.h"
-#include "prt/support/file.h"
+#include "prt/core/error.h"
+#include "prt/core/sh_basis.h"
+#include "runtime/support/file.h"
 #include "support/temporary_folder.h"
 
 #include <ImathBox.h>

@@ -1,8 +1,8 @@
 // Compares decoded WebP and AVIF images with the input of their encoders.
 
-#include "prt/image_file.h"
-#include "prt/image_size.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "prt/image/image_file.h"
+#include "runtime/image/image_size.h"
 
 #include <avif/avif.h>
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // Tests the filter against negative light.
 
-#include "prt/dering.h"
+#include "prt/core/dering.h"
 
-#include "prt/sh.h"
-#include "prt/sh_rotation.h"
+#include "prt/core/sh.h"
+#include "prt/core/sh_rotation.h"
 #include "support/quadrature.h"
 
 #include <glm/geometric.hpp>

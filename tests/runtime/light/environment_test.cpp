@@ -1,8 +1,8 @@
 // Tests lookups and resampling of environment layouts.
 
-#include "prt/environment.h"
+#include "prt/core/environment.h"
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

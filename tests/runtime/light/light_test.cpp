@@ -1,9 +1,9 @@
 // Tests lights of simple shapes against numerical integrals.
 
-#include "prt/light.h"
+#include "prt/core/light.h"
 
-#include "prt/sh.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "prt/core/sh.h"
 #include "support/light_difference.h"
 #include "support/quadrature.h"
 

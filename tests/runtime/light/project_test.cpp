@@ -1,9 +1,9 @@
 // Tests the projection of environment maps to spherical harmonics.
 
-#include "prt/environment.h"
+#include "prt/core/environment.h"
 
-#include "prt/sh.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "prt/core/sh.h"
 #include "support/light_difference.h"
 
 #include <glm/geometric.hpp>

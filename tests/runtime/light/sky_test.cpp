@@ -1,7 +1,7 @@
 // The analytic sky by the tables of its paper (Preetham, Shirley and Smits 1999, appendix A.2), written down
 // once more, and by the primaries of Rec. 709.
 
-#include "prt/light.h"
+#include "prt/core/light.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>

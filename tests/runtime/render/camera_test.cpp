@@ -1,9 +1,9 @@
 // Tests camera frames and default cameras.
 
-#include "prt/camera.h"
+#include "prt/render/camera.h"
 
-#include "prt/support/error.h"
-#include "prt/tone_map.h"
+#include "prt/core/error.h"
+#include "prt/render/tone_map.h"
 #include "support/scene_builder.h"
 
 #include <glm/geometric.hpp>

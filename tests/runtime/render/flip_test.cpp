@@ -1,8 +1,8 @@
 // FLIP against closed forms and a filter written a second time, without separable kernels.
 
-#include "prt/picture_error.h"
+#include "runtime/render/picture_error.h"
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 
 #include <glm/common.hpp>
 #include <gtest/gtest.h>

@@ -1,10 +1,10 @@
 // Lightmaps on the GPU against C++, and as surfaces show them.
 
-#include "prt/gl_context.h"
-#include "prt/gl_renderer.h"
-#include "prt/lightmap_file.h"
-#include "prt/lightmap_lookup.h"
-#include "prt/ray_renderer.h"
+#include "bake/reference/ray_renderer.h"
+#include "prt/gl/gl_context.h"
+#include "prt/gl/gl_renderer.h"
+#include "prt/render/lightmap_file.h"
+#include "runtime/render/lightmap_lookup.h"
 #include "support/gl_radiance.h"
 #include "support/random_lightmap.h"
 #include "support/scene_builder.h"

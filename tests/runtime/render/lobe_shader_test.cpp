@@ -1,8 +1,8 @@
 // Lobes: shaders of every language against C++.
 
-#include "prt/gl_context.h"
-#include "prt/shader_source.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "prt/gl/gl_context.h"
+#include "prt/shader/shader_source.h"
 #include "runtime/shader/run_shader.h"
 #include "shared_layout.h"
 

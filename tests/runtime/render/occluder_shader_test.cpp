@@ -1,8 +1,8 @@
 // Occlusion by moving objects: shaders of every language against C++.
 
-#include "prt/gl_context.h"
-#include "prt/occlusion_volume.h"
-#include "prt/shader_source.h"
+#include "prt/core/occlusion_volume.h"
+#include "prt/gl/gl_context.h"
+#include "prt/shader/shader_source.h"
 #include "runtime/shader/run_shader.h"
 #include "shared_layout.h"
 

@@ -1,13 +1,13 @@
 // The picture of OpenGL against that of rays.
 
-#include "prt/bake.h"
-#include "prt/compress.h"
-#include "prt/gl_renderer.h"
-#include "prt/light_meter.h"
-#include "prt/predictors.h"
-#include "prt/ray_renderer.h"
-#include "prt/support/error.h"
-#include "prt/tone_map.h"
+#include "bake/reference/light_meter.h"
+#include "bake/reference/ray_renderer.h"
+#include "prt/bake/bake.h"
+#include "prt/compress/compress.h"
+#include "prt/core/error.h"
+#include "prt/gl/gl_renderer.h"
+#include "prt/render/tone_map.h"
+#include "runtime/scene/predictors.h"
 #include "support/predicted.h"
 #include "support/scene_builder.h"
 

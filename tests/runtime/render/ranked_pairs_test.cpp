@@ -2,8 +2,8 @@
 // corner, four hundred times as bright as the rest, and a ball with a contact shadow. The visible error has
 // an equal ranking; relative L2, which the lamp dominates, does not.
 
-#include "prt/error_measures.h"
-#include "prt/flip.h"
+#include "prt/core/error_measures.h"
+#include "runtime/render/flip.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

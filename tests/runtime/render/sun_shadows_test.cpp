@@ -1,9 +1,9 @@
 // Suns in pictures of OpenGL, by shadow maps: closed forms, and rays as the truth.
 
-#include "prt/gl_renderer.h"
-#include "prt/sun_radiance.h"
-#include "prt/sun_shadows.h"
-#include "prt/support/error.h"
+#include "bake/pipeline/sun_radiance.h"
+#include "prt/core/error.h"
+#include "prt/gl/gl_renderer.h"
+#include "runtime/render/gl/sun_shadows.h"
 #include "support/scene_builder.h"
 
 #include <glm/common.hpp>

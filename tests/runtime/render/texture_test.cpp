@@ -1,9 +1,9 @@
 // Tests texture lookups.
 
-#include "prt/texture.h"
+#include "prt/render/texture.h"
 
-#include "prt/support/error.h"
-#include "prt/tone_map.h"
+#include "prt/core/error.h"
+#include "prt/render/tone_map.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // Volumes on the GPU against C++: their light as it is formed, and as shaders of every language look it up.
 
-#include "prt/light.h"
-#include "prt/gl_context.h"
-#include "prt/gl_volume.h"
-#include "prt/sh.h"
-#include "prt/shader_source.h"
+#include "prt/core/light.h"
+#include "prt/core/sh.h"
+#include "prt/gl/gl_context.h"
+#include "prt/shader/shader_source.h"
+#include "runtime/render/gl/gl_volume.h"
 #include "runtime/shader/run_shader.h"
 #include "shared_layout.h"
 #include "support/random_volume.h"

@@ -1,8 +1,8 @@
 // Nodes, skins and animations of glTF files.
 
-#include "prt/animation.h"
+#include "prt/gltf/animation.h"
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 #include "support/glb_file.h"
 #include "support/temporary_folder.h"
 

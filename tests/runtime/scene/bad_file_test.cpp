@@ -1,8 +1,8 @@
 // Tests damaged glTF files: each is rejected with a clear error.
 
-#include "prt/gltf.h"
+#include "prt/gltf/gltf.h"
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 #include "support/glb_file.h"
 #include "support/temporary_folder.h"
 

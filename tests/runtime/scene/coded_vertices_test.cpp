@@ -1,7 +1,7 @@
 // Tests entropy-coded words of vertices in files: they are read back bit by bit.
 
-#include "prt/gltf.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "prt/gltf/gltf.h"
 #include "support/glb_file.h"
 #include "support/temporary_folder.h"
 

@@ -1,7 +1,7 @@
 // Tests KHR_draco_mesh_compression: meshes compressed by Draco's encoder against the original meshes.
 
-#include "prt/gltf.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "prt/gltf/gltf.h"
 #include "support/glb_file.h"
 #include "support/temporary_folder.h"
 

@@ -1,10 +1,10 @@
 // Tests baked light for viewers that do not support the extensions: its colors, and that other readers ignore
 // it.
 
-#include "prt/fallback.h"
+#include "runtime/scene/gltf/vertex_fallback.h"
 
-#include "prt/encode_glb.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "runtime/scene/gltf/encode_glb.h"
 #include "support/glb_file.h"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // Tests levels of detail in files: their marks, their positions, and invalid files.
 
-#include "prt/levels.h"
+#include "prt/gltf/levels.h"
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 #include "support/glb_file.h"
 #include "support/temporary_folder.h"
 

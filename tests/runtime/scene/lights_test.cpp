@@ -1,7 +1,7 @@
 // Tests lights of KHR_lights_punctual and emissive materials in files.
 
-#include "prt/gltf.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "prt/gltf/gltf.h"
 #include "support/glb_file.h"
 
 #include <glm/geometric.hpp>

@@ -1,8 +1,8 @@
 // Lobes in files.
 
-#include "prt/encode_glb.h"
-#include "prt/instances_gltf.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "prt/gltf/transfer_gltf.h"
+#include "runtime/scene/gltf/encode_glb.h"
 #include "support/glb_file.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // Tests materials, nodes and textures beyond the core of glTF, and notices about unsupported ones.
 
-#include "prt/gltf.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "prt/gltf/gltf.h"
 #include "support/glb_file.h"
 #include "support/temporary_folder.h"
 

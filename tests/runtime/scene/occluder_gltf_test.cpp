@@ -1,9 +1,9 @@
 // Rigid parts of scenes, and occlusion volumes of nodes in files.
 
-#include "prt/encode_glb.h"
-#include "prt/instances_gltf.h"
-#include "prt/rigid_parts.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "prt/gltf/transfer_gltf.h"
+#include "runtime/scene/gltf/encode_glb.h"
+#include "runtime/scene/gltf/rigid_parts.h"
 #include "support/glb_file.h"
 
 #include <glm/geometric.hpp>

@@ -1,10 +1,10 @@
 // Tests predictors in files: the reader returns the data of the writer.
 
-#include "prt/clustered_bases.h"
-#include "prt/gltf.h"
-#include "prt/predictors.h"
-#include "prt/reorder.h"
-#include "prt/support/error.h"
+#include "prt/core/clustered_bases.h"
+#include "prt/core/error.h"
+#include "prt/gltf/gltf.h"
+#include "runtime/scene/gltf/reorder.h"
+#include "runtime/scene/predictors.h"
 #include "support/glb_file.h"
 #include "support/predicted.h"
 #include "support/temporary_folder.h"

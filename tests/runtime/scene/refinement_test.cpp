@@ -1,9 +1,9 @@
 // Tests refined files and scenes: the attributes of a vertex in the middle of an edge.
 
-#include "prt/refinement.h"
+#include "prt/gltf/refinement.h"
 
-#include "prt/encode_glb.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "runtime/scene/gltf/encode_glb.h"
 #include "support/glb_elements.h"
 #include "support/temporary_folder.h"
 

@@ -1,8 +1,8 @@
 // Tests the reordering of vertices in files.
 
-#include "prt/reorder.h"
+#include "runtime/scene/gltf/reorder.h"
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 #include "support/glb_file.h"
 #include "support/temporary_folder.h"
 

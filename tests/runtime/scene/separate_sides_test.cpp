@@ -1,6 +1,6 @@
 // Tests files whose double-sided surfaces are split into two sides.
 
-#include "prt/separate_sides.h"
+#include "runtime/scene/gltf/separate_sides.h"
 
 #include "support/glb_elements.h"
 #include "support/temporary_folder.h"

@@ -1,8 +1,8 @@
 // Which files a scene reaches.
-#include "prt/gltf.h"
+#include "prt/gltf/gltf.h"
 
-#include "prt/image_file.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "prt/image/image_file.h"
 #include "support/glb_file.h"
 #include "support/temporary_folder.h"
 

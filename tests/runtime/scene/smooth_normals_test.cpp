@@ -1,7 +1,7 @@
 // Smooth normals of meshes that have none: a sphere's are radial, a cube's corners are those of its
 // diagonals.
 
-#include "prt/gltf.h"
+#include "prt/gltf/gltf.h"
 #include "support/glb_file.h"
 
 #include <glm/geometric.hpp>

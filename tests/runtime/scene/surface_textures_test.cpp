@@ -1,10 +1,10 @@
 // Attributes, textures and coordinates that are written into files.
 
-#include "prt/gltf.h"
-#include "prt/vertex_splits.h"
+#include "prt/gltf/gltf.h"
+#include "runtime/scene/gltf/vertex_splits.h"
 
-#include "prt/image_file.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "prt/image/image_file.h"
 #include "support/glb_file.h"
 #include "support/temporary_folder.h"
 

@@ -1,8 +1,8 @@
 // Tests writing and reading of transfer in files.
 
-#include "prt/gltf.h"
+#include "prt/gltf/gltf.h"
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 #include "support/glb_file.h"
 #include "support/predicted.h"
 #include "support/temporary_folder.h"

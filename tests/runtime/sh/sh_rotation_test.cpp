@@ -1,9 +1,9 @@
 // Tests rotations of spherical harmonics.
 
-#include "prt/sh_rotation.h"
+#include "prt/core/sh_rotation.h"
 
-#include "prt/sh.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "prt/core/sh.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>

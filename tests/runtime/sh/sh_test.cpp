@@ -1,9 +1,9 @@
 // Tests the basis of spherical harmonics.
 
-#include "prt/sh.h"
+#include "prt/core/sh.h"
 
-#include "prt/sh_rotation.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "prt/core/sh_rotation.h"
 #include "support/quadrature.h"
 
 #include <glm/geometric.hpp>

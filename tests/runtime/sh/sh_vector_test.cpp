@@ -1,8 +1,8 @@
 // Tests arithmetic on vectors of spherical harmonics.
 
-#include "prt/sh.h"
+#include "prt/core/sh.h"
 
-#include "prt/light.h"
+#include "prt/core/light.h"
 #include "support/quadrature.h"
 
 #include <glm/geometric.hpp>

@@ -1,10 +1,10 @@
 // Compares the vertex shader of instances with C++, for compressed transfer with predictors.
 
-#include "prt/compress.h"
-#include "prt/gl_renderer.h"
-#include "prt/instances.h"
-#include "prt/shader_source.h"
-#include "prt/support/error.h"
+#include "prt/compress/compress.h"
+#include "prt/core/error.h"
+#include "prt/core/instances.h"
+#include "prt/gl/gl_renderer.h"
+#include "prt/shader/shader_source.h"
 
 #include "run_shader.h"
 #include "shared_layout.h"

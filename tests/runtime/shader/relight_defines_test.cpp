@@ -1,8 +1,8 @@
 // Tests the defines of the vertex shader for a model.
 
-#include "prt/shader_source.h"
+#include "prt/shader/shader_source.h"
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 #include "support/predicted.h"
 
 #include <glm/gtc/constants.hpp>

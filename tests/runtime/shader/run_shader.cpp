@@ -2,7 +2,7 @@
 
 #include "run_shader.h"
 
-#include "prt/cluster_lighting.h"
+#include "prt/core/cluster_lighting.h"
 #include "shared_layout.h"
 
 #include <gtest/gtest.h>

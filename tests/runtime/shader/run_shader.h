@@ -3,8 +3,8 @@
 // Runs the vertex shader of a model in the current context, and reads back its result. It calls only
 // functions of OpenGL ES 3.0, so that one test serves both kinds of context.
 
-#include "prt/clustered_transfer.h"
-#include "prt/shader_source.h"
+#include "prt/core/clustered_transfer.h"
+#include "prt/shader/shader_source.h"
 
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>

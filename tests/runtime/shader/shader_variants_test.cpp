@@ -1,12 +1,12 @@
 // Compares the vertex shader with C++, in every language and with every storage of the constants, run by the
 // driver.
 
-#include "prt/cluster_lighting.h"
-#include "prt/compress.h"
-#include "prt/gl_context.h"
-#include "prt/gl_objects.h"
-#include "prt/shader_source.h"
+#include "prt/compress/compress.h"
+#include "prt/core/cluster_lighting.h"
+#include "prt/gl/gl_context.h"
+#include "prt/shader/shader_source.h"
 #include "run_shader.h"
+#include "runtime/render/gl/gl_objects.h"
 #include "shared_layout.h"
 #include "support/predicted.h"
 

@@ -1,9 +1,9 @@
 // The vertex shader against the C++ evaluation, read back from the GPU.
 
-#include "prt/compress.h"
-#include "prt/gl_renderer.h"
-#include "prt/gl_transfer.h"
-#include "prt/shader_source.h"
+#include "prt/compress/compress.h"
+#include "prt/gl/gl_renderer.h"
+#include "prt/shader/shader_source.h"
+#include "runtime/render/gl/gl_transfer.h"
 
 #include "support/gl_radiance.h"
 #include "support/predicted.h"

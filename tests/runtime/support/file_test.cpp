@@ -1,8 +1,8 @@
 // Tests files that are written and published atomically.
 
-#include "prt/support/file.h"
+#include "runtime/support/file.h"
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 #include "support/temporary_folder.h"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // Tests parallel loops.
 
-#include "prt/support/parallel.h"
+#include "runtime/support/parallel.h"
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Tests the removal of control characters.
 
-#include "prt/support/printable.h"
+#include "runtime/support/printable.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Tests progress and cancellation.
 
-#include "prt/support/progress.h"
+#include "prt/core/progress.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Tests adjacency lists of edges.
 
-#include "prt/adjacency.h"
+#include "prt/core/adjacency.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // Tests that per-frame functions do not allocate. A separate program, because it counts every allocation.
 
-#include "prt/cluster_lighting.h"
-#include "prt/lightmap.h"
-#include "prt/sh.h"
-#include "prt/sh_rotation.h"
-#include "prt/volume_relighter.h"
+#include "prt/core/cluster_lighting.h"
+#include "prt/core/lightmap.h"
+#include "prt/core/sh.h"
+#include "prt/core/sh_rotation.h"
+#include "prt/core/volume_relighter.h"
 #include "support/random_lightmap.h"
 #include "support/random_volume.h"
 

@@ -1,8 +1,8 @@
 // Tests the constants of clusters under a light.
 
-#include "prt/cluster_lighting.h"
+#include "prt/core/cluster_lighting.h"
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 #include "support/predicted.h"
 
 #include <glm/geometric.hpp>

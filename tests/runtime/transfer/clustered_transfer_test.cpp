@@ -1,8 +1,8 @@
 // Tests clustered transfer: decoding, constants and sizes.
 
-#include "prt/clustered_transfer.h"
+#include "prt/core/clustered_transfer.h"
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 #include "support/predicted.h"
 
 #include <glm/geometric.hpp>

@@ -1,9 +1,9 @@
 // Tests entropy-coded rows of bases.
 
-#include "prt/clustered_bases.h"
+#include "prt/core/clustered_bases.h"
 
-#include "prt/support/bits.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "runtime/support/bits.h"
 
 #include <gtest/gtest.h>
 

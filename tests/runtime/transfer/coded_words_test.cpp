@@ -1,9 +1,9 @@
 // Tests entropy-coded words of receivers.
 
-#include "prt/clustered_transfer.h"
-#include "prt/coded_words.h"
+#include "prt/core/clustered_transfer.h"
+#include "runtime/transfer/coded_words.h"
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // Tests the error measures of lit transfer.
 
-#include "prt/error_measures.h"
+#include "prt/core/error_measures.h"
 
-#include "prt/mesh_edges.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "runtime/scene/mesh_edges.h"
 #include "support/scene_builder.h"
 
 #include <gtest/gtest.h>

@@ -1,10 +1,10 @@
 // Tests modes and factors of instances, against quadrature, rotated lighting, and each other.
 
-#include "prt/instances.h"
+#include "prt/core/instances.h"
 
-#include "prt/error_measures.h"
-#include "prt/sh.h"
-#include "prt/support/error.h"
+#include "prt/core/error.h"
+#include "prt/core/error_measures.h"
+#include "prt/core/sh.h"
 #include "support/quadrature.h"
 
 #include <glm/geometric.hpp>

@@ -1,7 +1,7 @@
 // Lightmaps in memory: which texels filters read, and the pass that lights them.
 
-#include "prt/cluster_lighting.h"
-#include "prt/lightmap.h"
+#include "prt/core/cluster_lighting.h"
+#include "prt/core/lightmap.h"
 #include "support/random_lightmap.h"
 #include "texel_formats.h"
 

@@ -1,11 +1,11 @@
 // Tests zonal lobes: their words as defined in docs/format.md, their rotations, and their light.
 
-#include "prt/lobes.h"
+#include "prt/core/lobes.h"
 
-#include "prt/light.h"
-#include "prt/sh.h"
-#include "prt/support/error.h"
-#include "prt/transfer.h"
+#include "prt/core/error.h"
+#include "prt/core/light.h"
+#include "prt/core/sh.h"
+#include "prt/core/transfer.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>

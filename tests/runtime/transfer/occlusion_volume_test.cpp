@@ -1,8 +1,8 @@
 // Tests occlusion by moving objects: caps against quadrature and spheres, and placed volumes.
 
-#include "prt/occlusion_volume.h"
+#include "prt/core/occlusion_volume.h"
 
-#include "prt/support/error.h"
+#include "prt/core/error.h"
 #include "support/quadrature.h"
 
 #include <glm/geometric.hpp>

@@ -1,8 +1,8 @@
 // Tests exit radiance of raw transfer.
 
-#include "prt/transfer.h"
+#include "prt/core/transfer.h"
 
-#include "prt/sh.h"
+#include "prt/core/sh.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // Tests layouts of transfer terms.
 
-#include "prt/transfer_layout.h"
+#include "prt/core/transfer_layout.h"
 
-#include "prt/error_measures.h"
-#include "prt/support/error.h"
-#include "prt/transfer.h"
+#include "prt/core/error.h"
+#include "prt/core/error_measures.h"
+#include "prt/core/transfer.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // Tests that transfer read block by block equals the complete transfer.
 
-#include "prt/transfer_view.h"
+#include "prt/core/transfer_view.h"
 
 #include <glm/gtc/packing.hpp>
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // Textures of a volume against the light and the visibility that they hold.
 
-#include "prt/volume_relighter.h"
+#include "prt/core/volume_relighter.h"
 
-#include "prt/sh.h"
+#include "prt/core/sh.h"
 #include "support/random_volume.h"
 
 #include <glm/geometric.hpp>

@@ -1,9 +1,9 @@
 // Tests volumes in memory: weights of probes in closed form, and incident light.
 
-#include "prt/cluster_lighting.h"
-#include "prt/sh.h"
-#include "prt/transfer_volume.h"
-#include "prt/volume_weights.h"
+#include "prt/core/cluster_lighting.h"
+#include "prt/core/sh.h"
+#include "prt/core/transfer_volume.h"
+#include "runtime/transfer/volume_weights.h"
 #include "support/random_volume.h"
 
 #include <glm/geometric.hpp>

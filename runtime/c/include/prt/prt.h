@@ -10,7 +10,7 @@
 #ifndef PRT_PRT_H
 #define PRT_PRT_H
 
-#include "prt/version.h"
+#include "prt/core/version.h"
 
 #include <stddef.h>
 #include <stdint.h>
