@@ -4,13 +4,6 @@
 
 #include "shared_layout.h"
 
-// A function that both languages compile.
-#ifdef __cplusplus
-#define PRT_FUNCTION [[gnu::always_inline]] constexpr
-#else
-#define PRT_FUNCTION
-#endif
-
 // Offset of rays from a surface, relative to the lengths of the triangle and of the ray that ends there
 // (docs/math.md, section 2): 16 roundings of a float.
 #define PRT_LENGTH_OFFSET 9.5367431640625e-7f

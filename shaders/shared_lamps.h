@@ -1,13 +1,13 @@
 // Geometry and samples of lamps (docs/math.md, section 13). GLSL computes them in float and C++ in double:
-// `real` is either type. C++ includes this file through bake/scene/lamp_geometry.h.
+// `real` is either type.
 #ifndef PRT_SHARED_LAMPS_H
 #define PRT_SHARED_LAMPS_H
 
+#include "shared_types.h"
+
 #ifdef __cplusplus
-#define PRT_LAMP_FUNCTION inline
-#else
-#define PRT_LAMP_FUNCTION
-#define real float
+namespace prt::lamp_geometry {
+using namespace glsl_double;
 #endif
 
 // Returns a number in [0, 1) with 24 bits, which float and double represent exactly.
@@ -132,5 +132,9 @@ PRT_LAMP_FUNCTION TrianglePoint point_of(SeenTriangle t, vec2 u) {
     p.angle = t.angle;
     return p;
 }
+
+#ifdef __cplusplus
+} // namespace prt::lamp_geometry
+#endif
 
 #endif

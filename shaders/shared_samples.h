@@ -2,7 +2,11 @@
 #ifndef PRT_SHARED_SAMPLES_H
 #define PRT_SHARED_SAMPLES_H
 
-#include "shared_bake.h"
+#include "shared_types.h"
+
+#ifdef __cplusplus
+namespace prt::glsl {
+#endif
 
 // A well-mixed 32-bit hash (Jarzynski and Olano 2020, pcg).
 PRT_FUNCTION uint pcg_hash(uint v) {
@@ -20,5 +24,9 @@ PRT_FUNCTION uint laine_karras(uint v, uint seed) {
     v ^= v * 0x53a22864u;
     return v;
 }
+
+#ifdef __cplusplus
+} // namespace prt::glsl
+#endif
 
 #endif

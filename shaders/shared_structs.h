@@ -1,10 +1,15 @@
 // Structs that the baker shares between GLSL and C++, with std430 layout: one side packs them and the other
-// unpacks them with the functions and numbers of this file. C++ includes it through
-// bake/trace_gpu/gpu_structs.h, which defines the GLSL types.
+// unpacks them with the functions and numbers of this file. bake/trace_gpu/struct_layout.cpp checks the layout.
 #ifndef PRT_SHARED_STRUCTS_H
 #define PRT_SHARED_STRUCTS_H
 
 #include "shared_bake.h"
+#include "shared_types.h"
+
+#ifdef __cplusplus
+namespace prt::gpu {
+using namespace glsl;
+#endif
 
 struct Receiver {
     vec4 origin; // origin of its rays, off the surface; w: seed of its samples, as bits
@@ -167,5 +172,9 @@ PRT_FUNCTION uvec2 with_byte(uvec2 bytes, uint slot, uint value) {
 PRT_FUNCTION uint step_bits(uint exponents, uint axis) {
     return (exponents >> (8u * axis) & 255u) << 23;
 }
+
+#ifdef __cplusplus
+} // namespace prt::gpu
+#endif
 
 #endif

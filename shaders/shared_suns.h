@@ -1,7 +1,8 @@
-// Suns and their shadow maps, shared between GLSL and C++, with std430 layout. C++ includes this file through
-// runtime/render/gl/sun_structs.h, which defines the GLSL types.
+// Suns and their shadow maps, shared between GLSL and C++, with std430 layout.
 #ifndef PRT_SHARED_SUNS_H
 #define PRT_SHARED_SUNS_H
+
+#include "shared_types.h"
 
 #define PRT_MAX_SUNS 4
 #define PRT_MAX_SLICES 4 // slices of the view by distance; each has a map per sun
@@ -22,6 +23,11 @@
 #define PRT_UNIT_GLASS 12
 
 #define PRT_LOCATION_GLASS_TEXCOORD 3 // attribute of casters
+
+#ifdef __cplusplus
+namespace prt::suns {
+using namespace glsl;
+#endif
 
 struct SunLight {
     vec4 towards; // unit; w: tangent of the half angle
@@ -46,5 +52,15 @@ struct SunsSeen {
     int layered; // some surface transmits a part of the light
     int unused;
 };
+
+#ifdef __cplusplus
+static_assert(sizeof(SunLight) == 32 && sizeof(SunMap) == 64 && offsetof(SunMap, texels_per_metre) == 48 &&
+              offsetof(SunMap, depth) == 56);
+static_assert(offsetof(SunsSeen, maps) == 32 * PRT_MAX_SUNS &&
+              offsetof(SunsSeen, slice_ends) == (32 + 64 * PRT_MAX_SLICES) * PRT_MAX_SUNS &&
+              offsetof(SunsSeen, count) == offsetof(SunsSeen, slice_ends) + 48 &&
+              sizeof(SunsSeen) == offsetof(SunsSeen, count) + 16);
+} // namespace prt::suns
+#endif
 
 #endif

@@ -2,11 +2,11 @@
 
 #include "bake/pipeline/lamp_rows.h"
 
-#include "bake/scene/lamp_geometry.h"
 #include "bake/scene/transmittance.h"
 #include "bake/surface_fit/surface_samples.h"
 #include "bake/trace/sample_sequence.h"
 #include "bake/trace/scrambles.h"
+#include "shared_lamps.h"
 
 #include <glm/geometric.hpp>
 

@@ -3,9 +3,9 @@
 // Orthographic depth maps of a scene.
 
 #include "bake/raster/raster_scene.h"
-#include "bake/trace_gpu/gpu_structs.h"
 #include "prt/gltf/scene.h"
 #include "runtime/render/gl/gl_objects.h"
+#include "shared_structs.h"
 
 #include <array>
 #include <functional>

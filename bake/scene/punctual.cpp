@@ -2,7 +2,7 @@
 
 #include "bake/scene/punctual.h"
 
-#include "bake/scene/lamp_geometry.h"
+#include "shared_lamps.h"
 
 #include <cmath>
 

@@ -2,9 +2,9 @@
 
 // Shadow rays from a receiver to one lamp.
 
-#include "bake/scene/lamp_geometry.h"
 #include "bake/scene/trace_scene.h"
 #include "bake/trace/choose_lamps.h"
+#include "shared_lamps.h"
 
 #include <glm/vec3.hpp>
 

@@ -4,6 +4,7 @@
 
 #include "runtime/support/vector_lanes.h"
 #include "shared_bake.h"
+#include "shared_samples.h"
 
 #include <cstdint>
 #include <vector>
@@ -34,8 +35,7 @@ struct SobolOffset {
 };
 SobolOffset sobol_offset(std::uint32_t first);
 
-using uint = std::uint32_t; // name in GLSL, for code that both compile
-#include "shared_samples.h"
+using glsl::laine_karras, glsl::pcg_hash;
 
 [[gnu::always_inline]] inline std::uint32_t reverse_bits(std::uint32_t v) {
     v = (v >> 16) | (v << 16);

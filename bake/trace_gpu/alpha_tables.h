@@ -3,7 +3,7 @@
 // Triangles of a scene in the layout of the bake shaders, and tables of triangles that do not stop all light.
 
 #include "bake/scene/trace_scene.h"
-#include "bake/trace_gpu/gpu_structs.h"
+#include "shared_structs.h"
 
 #include <cstdint>
 #include <span>

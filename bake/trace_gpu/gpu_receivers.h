@@ -3,7 +3,7 @@
 // Receivers in the layout of shaders.
 
 #include "bake/scene/trace_scene.h"
-#include "bake/trace_gpu/gpu_structs.h"
+#include "shared_structs.h"
 
 #include <span>
 #include <vector>

@@ -3,7 +3,7 @@
 // Rows of sums in the layout of shaders, and their fixed-point values.
 
 #include "bake/trace/vector_sums.h"
-#include "bake/trace_gpu/gpu_structs.h"
+#include "shared_structs.h"
 
 #include <span>
 

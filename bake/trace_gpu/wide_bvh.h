@@ -4,7 +4,7 @@
 // on GPUs Through Compressed Wide BVHs", HPG 2017. A node has eight children, whose boxes are on a grid of 8
 // bits per axis.
 
-#include "bake/trace_gpu/gpu_structs.h"
+#include "shared_structs.h"
 
 #include <vector>
 

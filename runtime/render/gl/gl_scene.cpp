@@ -2,9 +2,9 @@
 
 #include "runtime/render/gl/gl_scene.h"
 
-#include "runtime/render/gl/sun_structs.h"
 #include "runtime/scene/light_passing.h"
 #include "shared_layout.h"
+#include "shared_suns.h"
 
 #include <epoxy/gl.h>
 #include <glm/geometric.hpp>

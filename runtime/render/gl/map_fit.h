@@ -3,7 +3,7 @@
 // Placement of shadow maps: fitted to the visible part of the scene and the casters between it and the sun.
 
 #include "prt/render/picture.h"
-#include "runtime/render/gl/sun_structs.h"
+#include "shared_suns.h"
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 // Structs that kernels and C++ share: the offsets that the compiled kernels read them at.
 
-#include "bake/trace_gpu/gpu_structs.h"
+#include "shared_structs.h"
 
 #include "kernels/bake_accumulate.h"
 #include "kernels/bake_gather.h"

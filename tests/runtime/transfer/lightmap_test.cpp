@@ -3,7 +3,7 @@
 #include "prt/core/cluster_lighting.h"
 #include "prt/core/lightmap.h"
 #include "support/random_lightmap.h"
-#include "texel_formats.h"
+#include "runtime/transfer/texel_formats.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

@@ -1,24 +1,10 @@
-#pragma once
-
-// C++ versions of the structs of shaders/shared_structs.h, with GLSL type names, and checks that their layout
-// in memory is std430.
-
-#include "shared_bake.h"
-
-#include <glm/mat4x4.hpp>
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
-
-#include <cstddef>
-#include <cstdint>
-
-namespace prt::gpu {
-
-using uint = std::uint32_t;
-using glm::mat4, glm::vec2, glm::vec3, glm::vec4, glm::uvec2;
+// Checks that the structs of shaders/shared_structs.h have the layout std430 in C++.
 
 #include "shared_structs.h"
+
+#include <cstddef>
+
+namespace prt::gpu {
 
 #define PRT_AT(type, member, offset) static_assert(offsetof(type, member) == (offset))
 static_assert(sizeof(Receiver) == 32);
