@@ -120,14 +120,19 @@ void add_bench(CLI::App& app, Session& session) {
     command
         ->add_option_function<std::string>(
             "--rays", [&a](const std::string& text) { set_rays(text, a.options); },
-            "rays per vertex: FROM, doubled in each next run up to TO")
+            "rays per vertex: FROM, doubled in each next run up to TO\n"
+            "1 to 262144, FROM at most TO; with depth maps: number of directions")
         ->type_name("FROM..TO")
         ->default_str(fmt::format("{}..{}", a.options.fewest_rays, a.options.max_rays));
     Suboptions("--method", "", "setting of the runs that use depth maps", nullptr)
-        .whole_number("resolution", 16, 16384, "number of texels along each side of a depth map [1024]",
+        .whole_number("resolution", 16, 16384,
+                      "number of texels along each side of a depth map, 16 to 16384 [1024]",
                       [&a](int texels) { a.options.raster_resolution = texels; })
         .add(command);
-    command->add_option("--seconds", a.options.max_seconds, "skip runs that would take longer than X seconds")
+    command
+        ->add_option("--seconds", a.options.max_seconds,
+                     "skip runs that would take longer than X seconds\n"
+                     "the first run of each method is never skipped")
         ->capture_default_str()
         ->check(real_in(0, 1e9));
     add_seed(command, a.options.seed);

@@ -61,13 +61,15 @@ void add_make(CLI::App& app, Session& session) {
                 "--max-error", r.goal.max_error,
                 "find the fewest bytes per vertex with at most this error\n"
                 "relative L2 over the surface against path tracing, root mean square over all lights\n"
-                "default: 0.03 (3 %), or 1.2 times the error of light and vertices if that is larger")
+                "of skies and suns: lamps are off, and each light has the rotation of --rotate\n"
+                "default: 0.03 (3 %), or 1.2 times the error before compression if that is larger")
             ->check(above_zero())
             ->default_str("0.03");
     command
         ->add_option("--bytes-per-vertex", r.goal.bytes_per_vertex,
                      "find the minimum error with at most X bytes per vertex, with bases\n"
-                     "X: the bytes of its 32-bit words, plus the bytes of all bases / number of vertices")
+                     "X: the bytes of its 32-bit words, plus the bytes of all bases / number of vertices\n"
+                     "replaces the goal --max-error and cannot be combined with it")
         ->check(above_zero())
         ->excludes(error);
     command
@@ -77,7 +79,8 @@ void add_make(CLI::App& app, Session& session) {
         ->check(above_zero());
     command
         ->add_flag("--best-effort", r.goal.best_effort,
-                   "write the closest result if --max-error is not met; default: error")
+                   "write the closest result if --max-error is not met; default: error\n"
+                   "only with --max-error; without a goal, the closest result is always written")
         ->needs(error);
     command
         ->add_option("--keep-bake", r.baked,
