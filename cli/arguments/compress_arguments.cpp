@@ -114,7 +114,7 @@ void add_goals(CLI::App* command, SearchOptions& o) {
             "--max-error", o.budget.max_error,
             "find the fewest bytes per vertex with at most this relative L2 error\n"
             "error of the lit surface, as 0.01: for each sky of --lights at every rotation about +Y\n"
-            "  natural and plain: on average over the light\n"
+            "  with its suns in the sky and separate; natural and plain: on average over the light\n"
             "X also limits the contrast error, which is relative to the local brightness:\n"
             "  a root mean square over all skies, and one over all lamps with one lamp lit at a time\n"
             "default: no limit")

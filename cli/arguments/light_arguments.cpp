@@ -36,7 +36,7 @@ constexpr Choice<MapLayout> kLayouts[] = {
      "six faces in a column; edge texels are centered on the edges of the cube (OpenEXR)"},
     {"cube-faces",
      {EnvironmentLayout::cube_faces},
-     "six faces in a row or a cross; no texel is shared by faces (OpenGL, Direct3D)"},
+     "six faces in a column; no texel is shared by faces (OpenGL, Direct3D)"},
     {"angular",
      {EnvironmentLayout::angular},
      "light probe (Debevec): all directions in a circle; the center shows -z"}};
@@ -99,7 +99,8 @@ void add_light_options(CLI::App* command, LightOptions& options) {
             },
             "arrangement of directions in the image\n"
             "default: the attribute of an OpenEXR file; else by width:height, 2:1: lat-long, 1:6: cube,\n"
-            "  cross, row or {face}: cube-faces; other images need this option; light files ignore it" +
+            "  cross or row: cube-faces; six files, sky_{face}.hdr, with px, nx, py, ny, pz, nz: cube-faces\n"
+            "  other images need this option; light files ignore it" +
                 explained(kLayouts))
         ->type_name("LAYOUT")
         ->default_str("by the file");
@@ -124,7 +125,8 @@ void add_suns(CLI::App* command, SunCount& suns, const std::string& text, const 
     Suboptions option("--suns", "N|auto", text,
                       [&suns](const std::string& given) { set_count(given, suns); });
     option.detail("N: at most the N strongest suns of an image, 0 to 16; 0: suns are part of the sky")
-        .detail("auto: up to 4 suns of an image that each reduce the error of light in shadows by 1 %");
+        .detail(
+            "auto: up to 4 suns of an image that each reduce the error of light in shadows by 1 % or more");
     if (rays)
         option.whole_number("rays", 1, 1 << 20,
                             fmt::format("rays to each sun, from a vertex (relight) or a pixel (render) [{}]\n"

@@ -64,13 +64,13 @@ CLI::Option* add_texels(CLI::App* command, TexelArguments& a, const std::string&
             .detail("N/m: mean number of texels per metre of surface, as 64/m; at most 8192 along a side")
             .flag("unwrap", "create a new set of texture coordinates if that of uv=N is missing or overlaps",
                   [&a] { a.unwrap = true; })
-            .detail("  overlaps: within an object; with atlas=one also between objects")
+            .detail("  overlaps: within an object (node); with atlas=one also between objects")
             .whole_number("uv", 0, 7, "set of texture coordinates to use, TEXCOORD_N, 0 to 7 [1]",
                           [&a](int set) { a.texels.uv_set = set; })
             .key("atlas", names_of(kAtlasModes),
                  "one: a texture for all objects; each: a texture per object [auto]",
                  [&a](const std::string& name) { a.texels.atlases = chosen("--texels", kAtlasModes, name); })
-            .detail("  auto: one if the charts of all objects do not overlap, else each; created set: one")
+            .detail("  auto: one if the charts of all objects do not overlap or the set is new, else each")
             .add(command);
     Suboptions("--high-poly", "FILE",
                "trace rays against this detailed model instead of the scene\n"

@@ -491,7 +491,7 @@ void add_bake(CLI::App& app, Session& session) {
         ->add_option(
             "--target-error", a.options.target_error,
             "trace rays until direct light has at most this relative L2 noise\n"
-            "0.01: 1 %; replaces --rays: the number of rays differs between vertices; default: --rays\n"
+            "0.01: 1 %; light of the sky; the number of rays differs between vertices; default: --rays\n"
             "not with --rays, --texels, --volume, --refine, --fit surface, --method raster,\n"
             "  --instances shared")
         ->check(above_zero())

@@ -97,7 +97,7 @@ void add_bench_device(CLI::App* command, BenchArguments& a, CLI::Option* scene) 
             },
             "GPU to measure, in addition to the CPU; default: automatic\n"
             "N: the GPU with this number in the list\n"
-            "NAME: the GPU whose name in the list contains NAME\n"
+            "NAME: the only GPU whose name in the list contains NAME, in upper or lower case\n"
             "list: print the list of GPUs and exit; needs no scene\n"
             "default: a hardware GPU before a software driver, then the one with the largest memory")
         ->type_name("N|NAME|list");

@@ -186,10 +186,10 @@ void add_evaluate(CLI::App& app, Session& session) {
     command->add_option("shipped", a.shipped, "compressed file or other bake; not needed with --measure")
         ->check(named);
     CLI::Option* lights =
-        add_lights(command, a.lights,
-                   "light under which errors are measured\n"
-                   "default: three built-in lights: a uniform sky, an overcast sky and a sun\n"
-                   "FILE replaces all three")
+        add_lights(
+            command, a.lights,
+            "light under which errors are measured\n"
+            "default: built-in lights: a uniform sky, an overcast sky and a sun; FILE replaces all three")
             ->default_str("three built-in lights");
     add_light_options(command, a.light_options);
     add_suns(command, a.suns,

@@ -15,6 +15,12 @@
 namespace prt::cli {
 namespace {
 
+constexpr const char* kMaxErrorText =
+    "find the fewest bytes per vertex with at most this error\n"
+    "relative L2 over the surface against path tracing, root mean square over --lights\n"
+    "lamps of the scene are off; each light has only the rotation of --rotate\n"
+    "default: 0.03 (3 %), or 1.2 times the error before compression if that is larger";
+
 struct MakeArguments {
     MakeRequest request;
     ReportFiles files;
@@ -54,17 +60,13 @@ void add_make(CLI::App& app, Session& session) {
         ->required()
         ->check(named);
     add_output(command, r.output, "write the compressed model to this file, .glb");
-    add_lights(command, r.lights, "light in which the model will be used")->required();
-    CLI::Option* error =
-        command
-            ->add_option(
-                "--max-error", r.goal.max_error,
-                "find the fewest bytes per vertex with at most this error\n"
-                "relative L2 over the surface against path tracing, root mean square over all lights\n"
-                "of skies and suns: lamps are off, and each light has the rotation of --rotate\n"
-                "default: 0.03 (3 %), or 1.2 times the error before compression if that is larger")
-            ->check(above_zero())
-            ->default_str("0.03");
+    add_lights(command, r.lights,
+               "light in which the model will be used\n"
+               "its suns are separate, up to 4 of an image, because renderers have shadow maps for them")
+        ->required();
+    CLI::Option* error = command->add_option("--max-error", r.goal.max_error, kMaxErrorText)
+                             ->check(above_zero())
+                             ->default_str("0.03");
     command
         ->add_option("--bytes-per-vertex", r.goal.bytes_per_vertex,
                      "find the minimum error with at most X bytes per vertex, with bases\n"

@@ -129,10 +129,10 @@ void add_project(CLI::App& app, Session& session) {
     auto& a = arguments_for<ProjectArguments>(
         command, [&session](const ProjectArguments& given) { run(given, session); });
     command
-        ->add_option(
-            "environment", a.environment,
-            "environment image (.exr, .hdr, .png, .jpg) or light file (.json)\n"
-            "                              sky_{face}.hdr: six files, sky_px.hdr, nx, py, ny, pz, nz")
+        ->add_option("environment", a.environment,
+                     "environment image (.exr, .hdr, .png, .jpg) or light file (.json)\n"
+                     "                              sky_{face}.hdr: six files, sky_px.hdr, sky_nx.hdr, and "
+                     "py, ny, pz, nz")
         ->required()
         ->check(named);
     add_output(command, a.output, "write the light to this file, .json");

@@ -81,18 +81,22 @@ struct RenderArguments {
 
 constexpr Choice<Show> kShows[] = {
     {"lit", Show::lit, "the model in the light of sky and lamps"},
-    {"clusters", Show::clusters, "a color for each cluster of a compressed model"},
+    {"clusters", Show::clusters, "a color for each cluster; needs a compressed model"},
     {"error", Show::error,
      "error against a reference: needs either --baked or --path-trace\n"
      "  --baked: contrast error, white: 10 %; --path-trace: HDR-FLIP, white: 1"},
-    {"ao", Show::ao, "ambient occlusion: the model under a uniform white sky, without lamps and textures"}};
+    {"ao", Show::ao,
+     "ambient occlusion: the model under a uniform white sky, without lamps and textures\n"
+     "  by the transfer of the model, which contains the bounces of the bake"}};
 constexpr Choice<ToneMap> kToneMaps[] = {
     {"filmic", ToneMap::filmic, "a film curve, which compresses dark and bright values softly"},
     {"srgb", ToneMap::srgb, "the sRGB curve; values above 1 are clipped"}};
 constexpr Choice<Backend> kDevices[] = {
     {"auto", Backend::automatic, "a hardware GPU if there is one, else the CPU"},
     {"cpu", Backend::cpu, "the CPU, by casting rays"},
-    {"gpu", Backend::gpu, "OpenGL 4.5 on a GPU, or on a software driver"}};
+    {"gpu", Backend::gpu,
+     "OpenGL 4.5 on a GPU, or on a software driver\n"
+     "  after prt bake --subsurface only with --suns 0"}};
 
 constexpr int kUnshadowedOrder = 6;
 
@@ -620,7 +624,7 @@ void add_render(CLI::App& app, Session& session) {
     add_light_options(command, a.light_options);
     add_suns(command, a.lights.suns,
              std::string("number of suns of --lights that are drawn with sharp shadows\n"
-                         "after prt compress --combine-direct: only 0, and auto acts as 0\n") +
+                         "after prt compress --combine-direct or prt lobes: only 0, and auto acts as 0\n") +
                  kSunsOfLightFiles,
              "auto", &a.lights.sun_rays);
     add_lamps(command, a.lights.lamps);

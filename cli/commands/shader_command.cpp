@@ -220,7 +220,7 @@ void add_shader(CLI::App& app, Session& session) {
     choice(command, "--constants", a.constants, kConstants,
            "GPU storage of the constants\n"
            "constants: values that your program uploads for each lighting\n"
-           "only for the stages vertex, fragment and instances",
+           "only for the stages vertex, fragment and instances; default: buffer if the language has it",
            "buffer, else texture");
     choice(command, "--stage", a.stage, kStages, "shader to write", "vertex")->type_name("STAGE");
     add_reading(command, a.reading);
