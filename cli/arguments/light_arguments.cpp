@@ -99,7 +99,7 @@ void add_light_options(CLI::App* command, LightOptions& options) {
             },
             "arrangement of directions in the image\n"
             "default: the attribute of an OpenEXR file; else by width:height, 2:1: lat-long, 1:6: cube,\n"
-            "  cross or row: cube-faces; six files, sky_{face}.hdr, with px, nx, py, ny, pz, nz: cube-faces\n"
+            "  cross, row, or six files sky_{face}.hdr with px, nx, py, ny, pz, nz: cube-faces\n"
             "  other images need this option; light files ignore it" +
                 explained(kLayouts))
         ->type_name("LAYOUT")

@@ -75,11 +75,11 @@ void add_instances(CLI::App* command, InstanceArguments& arguments) {
         .detail("error and samples need shared or auto")
         .add(command)
         ->default_str("own");
-    CLI::Option* const lights =
-        add_lights(command, arguments.lights,
-                   "light under which errors of shared instances are measured\n"
-                   "needs --instances shared or auto; error=X of --instances limits the error under each\n"
-                   "five built-in soft skies are always tested; default: only these");
+    CLI::Option* const lights = add_lights(
+        command, arguments.lights,
+        "light under which errors of shared instances are measured\n"
+        "needs --instances shared or auto; an instance above error=X under a FILE is baked as own\n"
+        "five built-in soft skies are always tested; default: only these");
     add_suns(
         command, arguments.suns,
         std::string("number of suns of --lights for which a renderer has shadow maps\n"

@@ -50,7 +50,7 @@ struct BakeArguments {
 constexpr Choice<BakeMethod> kBakeMethods[] = {
     {"trace", BakeMethod::trace, "rays, traced by the processor of --device"},
     {"raster", BakeMethod::raster,
-     "depth maps from --rays directions, drawn by OpenGL 4.5; only direct light of vertices\n"
+     "depth maps of --rays directions, drawn by OpenGL 4.5; only direct light at vertices\n"
      "  not with --bounces, --texels, --volume, --refine, --target-error, --fit surface\n"
      "  not with --instances shared\n"
      "  --device auto: only a hardware GPU; gpu: also a software driver; other values: an error"}};

@@ -96,7 +96,7 @@ constexpr Choice<Backend> kDevices[] = {
     {"cpu", Backend::cpu, "the CPU, by casting rays"},
     {"gpu", Backend::gpu,
      "OpenGL 4.5 on a GPU, or on a software driver\n"
-     "  after prt bake --subsurface only with --suns 0"}};
+     "  after prt bake --subsurface: --suns only 0, and auto acts as 0"}};
 
 constexpr int kUnshadowedOrder = 6;
 
@@ -589,7 +589,7 @@ void add_render(CLI::App& app, Session& session) {
     add_light(command, a.environment);
     add_output(command, a.output,
                "write the picture to this file, .png or .exr\n"
-               ".png: 8 bits, with exposure and tone curve if --show lit; .exr: linear values without both");
+               ".png: 8 bits; with --show lit exposed and with a tone curve; .exr: linear values");
     add_view(command, a.view);
     choice(command, "--device", a.backend, kDevices,
            "processor that draws the picture\n"
