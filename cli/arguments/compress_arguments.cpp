@@ -71,29 +71,32 @@ void add_preset(CLI::App* command, SearchOptions& o) {
             "u64: two 32-bit words, with clusters like those of u32\n"
             "u32x4: one 32-bit word, four components in each cluster; for shaders without a loop\n"
             "u64x9: two 32-bit words, nine components in each cluster; for shaders without a loop\n"
-            "custom: sizes from --clusters, --components and --bits, which imply custom\n"
+            "custom: sizes from --clusters, --components and --bits; default with these or a goal\n"
             "small meshes get fewer clusters: bases need at most twice the bytes of the vertices, or 4 KB\n"
             "presets except custom cannot be combined with goals, --clusters, --components and --bits")
         ->check(CLI::IsMember({"u32", "u64", "u32x4", "u64x9", "custom"}))
         ->type_name("u32|u64|u32x4|u64x9|custom")
         ->default_str("u32");
     count_or_auto(command, "--clusters", {1, 65536}, o.compress.clusters, o.choose_clusters,
-                  "number of clusters, 1 to 65536; default: 256, or auto with a goal\n"
+                  "limit of clusters, 1 to 65536; default: 256, or auto with a goal\n"
                   "auto: chosen for the goal: --max-error, --bytes-per-vertex or --shader-ops");
     count_or_auto(command, "--components", {0, 3 * coefficient_count(kMaxOrder)},
                   o.compress.coding.components, o.choose_components,
                   "limit of components per cluster; default: 16, or auto with a goal\n"
                   "auto: chosen for the goal: --max-error, --bytes-per-vertex or --shader-ops\n"
-                  "PCA components, 0 to 300; packed weights use up to 16; default with --bits float: 8");
+                  "PCA components, 0 to 300; without --bits float at most 16 are used\n"
+                  "default with --bits float and without a goal: 8");
     command
         ->add_option_function<std::string>(
             "--bits", [&o](const std::string& text) { set_bits(text, o.compress.coding); },
             "sum of the bits of all weights of a vertex, 0 to 240; default: 24\n"
-            "with a goal, the number is chosen and cannot be given\n"
-            "float: 32-bit weights, not quantized; shows the error of quantization by comparison")
+            "with a goal, the number is chosen and cannot be given; float can be given\n"
+            "float: 32-bit weights, not quantized; shows the error of quantization by comparison\n"
+            "  not for lightmaps")
         ->type_name("N|float");
     choice(command, "--predictors", o.compress.predictors, kPredictors,
-           "vertex attributes that predict transfer\nwith a goal, the default is the best of the three",
+           "vertex attributes that predict transfer\n"
+           "with a goal, the default is the best of the three; lightmaps: only none, the default",
            "normal");
 }
 
@@ -111,7 +114,9 @@ void add_goals(CLI::App* command, SearchOptions& o) {
             "--max-error", o.budget.max_error,
             "find the fewest bytes per vertex with at most this relative L2 error\n"
             "error of the lit surface, as 0.01: for each sky of --lights at every rotation about +Y\n"
-            "also limits the contrast error under skies, and under each lamp alone\n"
+            "  with its suns in the sky and separate; natural and plain: on average over the light\n"
+            "X also limits the contrast error, which is relative to the local brightness:\n"
+            "  a root mean square over all skies, and one over all lamps with one lamp lit at a time\n"
             "default: no limit")
         ->check(above_zero());
     command
@@ -129,14 +134,14 @@ void add_goals(CLI::App* command, SearchOptions& o) {
             "--bytes-per-vertex", o.budget.bytes_per_vertex,
             "find the minimum error with at most X bytes per vertex, with bases\n"
             "X: the bytes of its 32-bit words, plus the bytes of all bases / number of vertices or texels\n"
-            "default: no limit")
+            "with --max-error: only an additional limit; default: no limit")
         ->check(above_zero());
     command
         ->add_option(
             "--shader-ops", o.budget.operations,
             "limit of the mean number of multiply-adds per vertex in the shader\n"
             "one multiply-add of a color for each component and for each predictor row of a cluster\n"
-            "default: no limit")
+            "without another goal: find the minimum error; default: no limit")
         ->check(above_zero());
 }
 
@@ -146,7 +151,8 @@ void add_options(CLI::App* command, CompressArguments& a) {
     add_preset(command, a.options);
     add_goals(command, a.options);
     command->add_flag("--best-effort", a.best_effort,
-                      "write the closest result if no result meets the goals; default: error");
+                      "write the closest result if no result meets the goals; default: error\n"
+                      "goals: --max-error, --bytes-per-vertex, --shader-ops, --max-jump; else no effect");
     add_metric(command, a.metric);
     command
         ->add_option("--seam-weight", a.options.compress.seam_weight,
@@ -159,13 +165,14 @@ void add_options(CLI::App* command, CompressArguments& a) {
                       "suns become part of the sky, with soft shadows only\n"
                       "default: separate, so that a renderer can draw sharp shadows of suns");
     command
-        ->add_option("--fallback", a.writing.fallback,
-                     std::string("add vertex colors, lit by this file, for viewers without PRT support\n"
-                                 "default: no vertex colors are added\n") +
-                         kLightFiles)
+        ->add_option(
+            "--fallback", a.writing.fallback,
+            std::string("add vertex colors, lit by this file, for viewers without PRT support\n"
+                        "not for lightmaps and shared instances; default: no vertex colors are added\n") +
+                kLightFiles)
         ->check(named)
         ->type_name("FILE");
-    Suboptions("--volume", "", "size of the probes, if the bake contains a volume", nullptr)
+    Suboptions("--volume", "", "size of the probes; needs a bake with a volume", nullptr)
         .key("bytes", "N", "bytes per probe, without bases: 4, 8, 12, 16, 20, 24 or 28 [16]",
              [&a](const std::string& text) {
                  const std::optional<int> bytes = whole_number(text);
@@ -176,7 +183,8 @@ void add_options(CLI::App* command, CompressArguments& a) {
              })
         .add(command);
     command->add_flag("--reorder", a.writing.reorder,
-                      "store the vertices of a cluster together; default: order of the bake");
+                      "store the vertices of a cluster together; default: order of the bake\n"
+                      "not for lightmaps");
     command->add_flag("--meshopt", a.writing.meshopt,
                       "compress the file with EXT_meshopt_compression; default: off\n"
                       "also entropy-codes the weights; the bytes in GPU memory remain the same");

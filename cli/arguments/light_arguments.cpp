@@ -36,7 +36,7 @@ constexpr Choice<MapLayout> kLayouts[] = {
      "six faces in a column; edge texels are centered on the edges of the cube (OpenEXR)"},
     {"cube-faces",
      {EnvironmentLayout::cube_faces},
-     "six faces in a row or a cross; no texel is shared by faces (OpenGL, Direct3D)"},
+     "six faces in a column; no texel is shared by faces (OpenGL, Direct3D)"},
     {"angular",
      {EnvironmentLayout::angular},
      "light probe (Debevec): all directions in a circle; the center shows -z"}};
@@ -80,11 +80,13 @@ void add_light_options(CLI::App* command, LightOptions& options) {
     options.notify = print_notices;
     const auto window = std::ranges::find(kWindows, options.window, &Choice<Window>::value);
     choice(command, "--window", options.window, kWindows,
-           "filter on the SH bands of the sky against ringing\nseparate suns are not filtered", window->name);
+           "filter on the SH bands of the sky against ringing\n"
+           "needs a light from a file; separate suns are not filtered",
+           window->name);
     command
         ->add_option("--rotate", options.rotation_degrees,
                      "rotate the sky and its suns about +Y by X degrees\n"
-                     "counter-clockwise, seen from above")
+                     "counter-clockwise, seen from above; needs a light from a file")
         ->capture_default_str()
         ->check(real_in(-1e6, 1e6));
     command
@@ -96,14 +98,17 @@ void add_light_options(CLI::App* command, LightOptions& options) {
                 options.environment.center = layout.center;
             },
             "arrangement of directions in the image\n"
-            "default: the attribute of an OpenEXR file; else 2:1: lat-long, 1:6: cube, cross: cube-faces" +
+            "default: the attribute of an OpenEXR file; else by width:height, 2:1: lat-long, 1:6: cube,\n"
+            "  cross, row, or six files sky_{face}.hdr with px, nx, py, ny, pz, nz: cube-faces\n"
+            "  other images need this option; light files ignore it" +
                 explained(kLayouts))
         ->type_name("LAYOUT")
         ->default_str("by the file");
     command
-        ->add_option("--layer", options.environment.layer,
-                     "name of the layer or part of an OpenEXR image to read\n"
-                     "default: the channels without a layer name, else the only layer")
+        ->add_option(
+            "--layer", options.environment.layer,
+            "name of the layer or part of an OpenEXR image to read\n"
+            "default: the channels without a layer name, else the only layer; other formats: an error")
         ->default_str("by the file");
     choice(command, "--bad-pixels", options.environment.bad_pixels, kBadPixels,
            "handling of negative, infinite and NaN pixels of an image", "error");
@@ -119,12 +124,13 @@ void add_suns(CLI::App* command, SunCount& suns, const std::string& text, const 
               int* rays) {
     Suboptions option("--suns", "N|auto", text,
                       [&suns](const std::string& given) { set_count(given, suns); });
-    option.detail("N: at most N suns, 0 to 16, the strongest ones; 0: suns are part of the sky")
-        .detail("auto: image: up to 4 suns that each reduce the error by 1 % or more; light file: all suns");
+    option.detail("N: at most the N strongest suns of an image, 0 to 16; 0: suns are part of the sky")
+        .detail(
+            "auto: up to 4 suns of an image that each reduce the error of light in shadows by 1 % or more");
     if (rays)
         option.whole_number("rays", 1, 1 << 20,
                             fmt::format("rays to each sun, from a vertex (relight) or a pixel (render) [{}]\n"
-                                        "  render uses this number on the CPU; on a GPU it draws shadow maps",
+                                        "  1 to 2^20; render on a GPU ignores it and draws shadow maps",
                                         *rays),
                             [rays](int count) { *rays = count; });
     option.add(command)->default_str(usual);
@@ -142,18 +148,20 @@ void add_lamps(CLI::App* command, LampChoice& lamps) {
             "on: the strengths of the scene\n"
             "off: all lamps are dark\n"
             "FILE: .json with a factor or [red, green, blue] for each lamp name; \"*\": all other lamps\n"
-            "factors multiply the strengths of the scene; 1: unchanged")
+            "factors: 0 to 1e9, multiply the strengths of the scene; lamps that are not listed: 1\n"
+            "name: of a light, emissive material or group of prt bake; other names are an error")
         ->type_name("on|off|FILE")
         ->default_str("on");
 }
 
-void add_lamp_scale(CLI::App* command, double& scale) {
+void add_lamp_scale(CLI::App* command, double& scale, const std::string& details) {
     command
         ->add_option("--lamp-scale", scale,
                      "factor on the intensity of point, spot and directional lights\n"
                      "X: 1 for lights in watts, 0.00146 (1/683) for lights in candela and lux\n"
                      "Blender, for example, exports candela and lux\n"
-                     "emissive materials are not scaled")
+                     "emissive materials are not scaled" +
+                         details)
         ->capture_default_str()
         ->check(above_zero());
 }
@@ -175,7 +183,7 @@ void add_metric(CLI::App* command, MetricArguments& arguments) {
                 }
             },
             "lights under which the error is minimized" + explained(kMetrics) + "\n" + kLightFiles +
-                "\nrepeat the option for several files")
+                "\nrepeat the option for several files; a family cannot be combined with other lights")
         ->allow_extra_args(false) // one each time, so that the bake may follow
         ->check(named)
         ->type_name("FAMILY|FILE")

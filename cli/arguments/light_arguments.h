@@ -17,6 +17,9 @@ namespace prt::cli {
 /// Line of help about files of light.
 inline constexpr const char* kLightFiles =
     "FILE: environment image (.exr, .hdr, .png, .jpg) or light file (.json, from prt project)";
+/// Line of help about suns of light files.
+inline constexpr const char* kSunsOfLightFiles =
+    "light file: 0: its suns are part of the sky; N from 1 and auto: all its suns are separate";
 /// Adds --lights for commands that use several; `text` says what for.
 CLI::Option* add_lights(CLI::App* command, std::vector<Path>& lights, const std::string& text);
 /// Adds --lights for commands that use one light, which may be missing.
@@ -33,8 +36,9 @@ void add_suns(CLI::App* command, SunCount& suns, const std::string& text, const 
 /// Adds --lamp-strengths.
 void add_lamps(CLI::App* command, LampChoice& lamps);
 
-/// Adds --lamp-scale: a factor on lights of KHR_lights_punctual.
-void add_lamp_scale(CLI::App* command, double& scale);
+/// Adds --lamp-scale: a factor on lights of KHR_lights_punctual. `details`: more lines of its help, each
+/// after a newline.
+void add_lamp_scale(CLI::App* command, double& scale, const std::string& details = "");
 
 /// Adds --lights of `prt compress`, files or a family, with the options of `add_light_options`.
 void add_metric(CLI::App* command, MetricArguments& arguments);

@@ -104,11 +104,12 @@ void add_reading(CLI::App* command, ReadingOptions& reading, double* limit) {
                 if (limit)
                     *limit = static_cast<double>(bytes);
             },
-            limit ? "limit of memory for scene and bake, as 8GB\n"
-                    "the program stops with an error if more is needed; 1 GB: 10^9 bytes, 1 GiB: 2^30 bytes\n"
-                    "default for the scene: 256 MB + 64 times the size of its files"
-                  : "limit of memory for the scene, as 8GB\n"
-                    "the program stops with an error if more is needed; 1 GB: 10^9 bytes, 1 GiB: 2^30 bytes")
+            limit
+                ? "limit of memory for scene and bake, as 8GB\n"
+                  "the program stops if more is needed; 1 GB: 10^9 bytes, 1 GiB: 2^30 bytes; no unit: bytes\n"
+                  "default for the scene: 256 MB + 64 times the size of its files"
+                : "limit of memory for the scene, as 8GB\n"
+                  "the program stops if more is needed; 1 GB: 10^9 bytes, 1 GiB: 2^30 bytes; no unit: bytes")
         ->transform(CLI::AsSizeValue(true))
         ->type_name("SIZE")
         ->default_str(limit ? "the machine's memory" : "256MB + 64 x file size");
@@ -126,7 +127,8 @@ void add_smooth_normals(CLI::App* command, GltfOptions& reading) {
 }
 
 void add_threads(CLI::App* command, int& threads) {
-    command->add_option("--threads", threads, "number of CPU threads; 0: all that the machine has")
+    command
+        ->add_option("--threads", threads, "number of CPU threads, up to 1024; 0: all that the machine has")
         ->capture_default_str()
         ->check(CLI::Range(0, 1024));
 }
@@ -156,7 +158,7 @@ void add_reports(CLI::App* command, ReportFiles& files) {
             },
             "write a report: a page (.html) or tables (.csv); default: no report\n"
             "repeat the option to write both files\n"
-            ".csv: a row is a light, a lamp, a method or a trial; the header contains the units")
+            ".csv: rows are lights, lamps, methods, trials and a summary; the header contains the units")
         ->allow_extra_args(false)
         ->type_name("FILE");
 }
@@ -168,11 +170,11 @@ CLI::Option* add_device(CLI::App* command, TracerChoice& tracer) {
         .detail("cpu: the CPU, with Embree")
         .detail("gpu: a GPU with Vulkan 1.2, or a software driver for Vulkan 1.2")
         .detail("N: the GPU with this number in the list of prt bench --device list")
-        .detail("NAME: the GPU whose name in that list contains NAME")
+        .detail("NAME: the only GPU whose name in that list contains NAME, in upper or lower case")
         .key("traversal", names_of(kTraversals), "how a GPU traces rays [auto]",
              [&tracer](const std::string& name) { tracer.traversal = chosen("--device", kTraversals, name); })
         .detail("  auto: device if the GPU has ray queries, else compute")
-        .detail("  compute: a bounding volume hierarchy in compute shaders; device: ray queries")
+        .detail("  compute: a bounding volume hierarchy in compute shaders; device: ray queries of the GPU")
         .add(command)
         ->default_str("auto");
 }

@@ -16,36 +16,40 @@ constexpr Choice<BackSides> kBackSides[] = {
     {"shared", BackSides::shared, "back sides show the light of the front sides"}};
 constexpr Choice<LevelMode> kLevelModes[] = {
     {"carry", LevelMode::carry, "fit the light of level 0 to the surface of the coarser level"},
-    {"own", LevelMode::own, "bake each coarser level instead of level 0; each takes as long as level 0"},
+    {"own", LevelMode::own,
+     "also bake the coarser levels, shown instead of level 0; each takes as long as level 0"},
     {"ignore", LevelMode::ignore, "coarser levels get no transfer"}};
 constexpr Choice<InstanceMode> kInstanceModes[] = {
     {"own", InstanceMode::own, "bake each instance with its own transfer"},
     {"shared", InstanceMode::shared,
-     "bake a mesh once; 52 bytes per instance describe the effect of its surroundings"},
+     "bake a mesh once; 52 bytes per instance describe the effect of its surroundings\n"
+     "  not with --texels, --volume, --refine, --target-error, --fit surface, --method raster\n"
+     "  not with subsurface scattering, lamps (use --lamps none), levels (use --levels ignore)"},
     {"auto", InstanceMode::automatic,
      "shared if possible and if it saves at least 3/4 of the rays, else own"}};
 
 } // namespace
 
-void add_no_shadow(CLI::App* command, std::vector<std::string>& materials) {
+void add_no_shadow(CLI::App* command, std::vector<std::string>& materials, const std::string& details) {
     command
         ->add_option("--no-shadow", materials,
-                     "name of a material that casts no shadow; repeat for several\n"
-                     "for example a sky dome; default: all materials cast shadows\n"
-                     "prt evaluate: the names that prt bake got; used by --measure budget and volume")
+                     "name of a material that casts no shadow; repeat the option for several\n"
+                     "for example of a sky dome; an unknown name is an error; default: all cast shadows" +
+                         details)
         ->allow_extra_args(false)
         ->type_name("MATERIAL");
 }
 
-void add_back_sides(CLI::App* command, BackSides& sides) {
-    choice(command, "--back-sides", sides, kBackSides, "light of the back sides of double-sided materials",
-           "auto");
+void add_back_sides(CLI::App* command, BackSides& sides, const std::string& details) {
+    choice(command, "--back-sides", sides, kBackSides,
+           "light of the back sides of double-sided materials" + details, "auto");
 }
 
 void add_levels(CLI::App* command, LevelMode& mode) {
     choice(command, "--levels", mode, kLevelModes,
            "transfer of coarser levels of detail\n"
-           "levels: nodes of MSFT_lod, or nodes with names as ROCK_LOD1",
+           "levels: nodes of MSFT_lod, or nodes with names as ROCK_LOD1\n"
+           "--texels: coarser levels get no lightmap; --instances shared: only ignore",
            "carry");
 }
 
@@ -56,24 +60,32 @@ void add_instances(CLI::App* command, InstanceArguments& arguments) {
                    arguments.mode = chosen("--instances", kInstanceModes, name);
                })
         .detail(explained(kInstanceModes).substr(1))
-        .number("error", 0, 1e9, "bake an instance as own if its relative L2 error is larger than X [0.1]",
+        .number("error", 0, 1e9,
+                "bake an instance as own if its relative L2 error is above X; 0.1: 10 % [0.1]",
                 [&arguments](double error) {
                     arguments.error = error;
                     arguments.settings = true;
                 })
         .whole_number("samples", 8, 1 << 20,
-                      "maximum number of vertices traced per instance, in its surroundings [256]",
+                      "limit of vertices traced in the surroundings of an instance; at least 8 [256]",
                       [&arguments](int samples) {
                           arguments.bake.samples = samples;
                           arguments.settings = true;
                       })
+        .detail("error and samples need shared or auto")
         .add(command)
         ->default_str("own");
-    CLI::Option* const lights =
-        add_lights(command, arguments.lights,
-                   "light under which shared instances must have at most error=X\n"
-                   "error=X: the setting of --instances shared or auto; five soft skies are always tested");
-    add_suns(command, arguments.suns, "number of suns of --lights for which a renderer has shadow maps", "0");
+    CLI::Option* const lights = add_lights(
+        command, arguments.lights,
+        "light under which errors of shared instances are measured\n"
+        "needs --instances shared or auto; an instance above error=X under a FILE is baked as own\n"
+        "five built-in soft skies are always tested; default: only these");
+    add_suns(
+        command, arguments.suns,
+        std::string("number of suns of --lights for which a renderer has shadow maps\n"
+                    "needs --lights; the direct light of these suns is not part of the measured light\n") +
+            kSunsOfLightFiles,
+        "0");
     command->get_option("--suns")->needs(lights);
 }
 

@@ -14,11 +14,11 @@
 
 namespace prt::cli {
 
-/// Adds --no-shadow.
-void add_no_shadow(CLI::App* command, std::vector<std::string>& materials);
+/// Adds --no-shadow. `details`: more lines of its help, each after a newline.
+void add_no_shadow(CLI::App* command, std::vector<std::string>& materials, const std::string& details = "");
 
-/// Adds --back-sides.
-void add_back_sides(CLI::App* command, BackSides& sides);
+/// Adds --back-sides. `details`: more lines of its help, each after a newline.
+void add_back_sides(CLI::App* command, BackSides& sides, const std::string& details = "");
 
 /// Adds --levels.
 void add_levels(CLI::App* command, LevelMode& mode);

@@ -61,19 +61,21 @@ CLI::Option* add_texels(CLI::App* command, TexelArguments& a, const std::string&
     CLI::Option* texels =
         Suboptions("--texels", "N|N/m", text, [&a](const std::string& value) { parse_size(value, a.texels); })
             .detail("N: number of texels along each side of a texture, 1 to 8192")
-            .detail("N/m: mean number of texels per metre of surface, as 64/m")
+            .detail("N/m: mean number of texels per metre of surface, as 64/m; at most 8192 along a side")
             .flag("unwrap", "create a new set of texture coordinates if that of uv=N is missing or overlaps",
                   [&a] { a.unwrap = true; })
+            .detail("  overlaps: within an object (node); with atlas=one also between objects")
             .whole_number("uv", 0, 7, "set of texture coordinates to use, TEXCOORD_N, 0 to 7 [1]",
                           [&a](int set) { a.texels.uv_set = set; })
             .key("atlas", names_of(kAtlasModes),
                  "one: a texture for all objects; each: a texture per object [auto]",
                  [&a](const std::string& name) { a.texels.atlases = chosen("--texels", kAtlasModes, name); })
-            .detail("  auto: one if the charts of all objects do not overlap, else each")
+            .detail("  auto: one if the charts of all objects do not overlap or the set is new, else each")
             .add(command);
     Suboptions("--high-poly", "FILE",
                "trace rays against this detailed model instead of the scene\n"
-               "needs --texels: a texel gets the value of the detailed surface along its normal",
+               "needs --texels: a texel gets the value of the detailed surface along its normal\n"
+               "beyond the distance it gets the value of the scene",
                [&a](const std::string& file) {
                    if (file.empty())
                        throw CLI::ValidationError("--high-poly", "the name of the file is empty");

@@ -83,7 +83,7 @@ CLI::Option* add_exposure(CLI::App* command, Exposure& exposure) {
             "STOPS: radiance is multiplied by 2^STOPS; 0: unchanged; -100 to 100\n"
             "auto: the mean luminance of the model becomes 0.22; in prt render, of its visible part\n"
             "auto+1: one stop brighter than auto, a factor of 2\n"
-            "used for .png pictures (prt render) and --colors unlit (prt relight)")
+            "needs --colors unlit (prt relight), or a .png picture with --show lit (prt render)")
         ->type_name("STOPS")
         ->default_str("auto");
 }

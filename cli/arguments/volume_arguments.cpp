@@ -45,23 +45,26 @@ void add_volume(CLI::App* command, VolumeArguments& arguments) {
                 volume.spacing = *metres;
             })
             .detail("METRES: distance between probes near surfaces; it is larger in open space")
+            .detail("not with --target-error, --method raster and --instances shared")
             .whole_number("probes", 125, 1 << 28,
-                          "instead of METRES: the densest volume with at most N probes, 125 to 2^28",
+                          "instead of METRES, as --volume probes=4000: at most N probes, 125 to 2^28",
                           [&volume, check_one](int count) {
                               check_one(volume.spacing > 0);
                               volume.probes = static_cast<std::size_t>(count);
                           })
             .number("error", 0, 0.99,
-                    "split cells, down to METRES / 4, until the relative L2 error is X [0: no split]",
+                    "split cells, down to METRES / 4, until the relative L2 error is X [0: no split]\n"
+                    "  0 to 0.99; needs METRES",
                     [&volume](double error) { volume.error = error; })
             .whole_number("order", 2, kMaxIncidentOrder,
                           "SH order of the light that arrives at a probe, 2 to 4 [3]",
                           [&volume](int order) { volume.order = order; })
-            .number(
-                "fit", 0, 100,
-                fmt::format("fit probes to X points per cell; 0: no fit [1 if --rays is at least {}, else 0]",
-                            kRaysWorthAFit),
-                [&volume](double points) { volume.fit_points = points; })
+            .number("fit", 0, 100,
+                    fmt::format(
+                        "fit probes to X points per cell; 0: no fit [1 if --rays is at least {}, else 0]\n"
+                        "  0 to 100, mean number of random points where light is measured",
+                        kRaysWorthAFit),
+                    [&volume](double points) { volume.fit_points = points; })
             .key("bounds", "x0,y0,z0,x1,y1,z1",
                  "corners of the volume, world space, metres [box of the scene]",
                  [&arguments](const std::string& text) { arguments.bounds = parse_bounds(text); })

@@ -270,24 +270,28 @@ void run(AoArguments a, Session& session) {
 }
 
 void add_outputs(CLI::App* command, AoArguments& a) {
-    CLI::Option* texels =
-        add_texels(command, a.textures, "bake textures of this size instead of vertices; default: vertices");
+    CLI::Option* texels = add_texels(command, a.textures,
+                                     "bake textures of this size instead of vertices; default: vertices\n"
+                                     "not with --fit, --attribute and --occluders");
     command
         ->add_option("--attribute", a.attribute,
                      "vertex attribute to write: COLOR_0 or a name with leading _\n"
                      "value: fraction of uniform light that arrives, 0 to 1\n"
-                     "default: COLOR_0, whose existing colors are multiplied by this value")
+                     "default: COLOR_0, whose existing colors are multiplied by this value\n"
+                     "not with --texels and --occluders; _BENT_NORMAL: not with --bent-normals")
         ->default_str("COLOR_0")
         ->excludes(texels);
     command->add_flag("--bent-normals", a.outputs.bent_normals,
                       "also write bent normals: the mean directions that are not blocked\n"
-                      "in the coordinate frame of the scene\n"
+                      "in the coordinate frame of the scene; not with --occluders\n"
                       "vertices: the attribute _BENT_NORMAL; textures: named in extras.prtkit of materials");
     command
-        ->add_flag("--occluders", a.outputs.occluders,
-                   "write occlusion volumes of moving objects instead of vertex values\n"
-                   "occlusion volumes are for contact shadows\n"
-                   "one volume for each object that moves as one part, and for each bone of a skinned figure")
+        ->add_flag(
+            "--occluders", a.outputs.occluders,
+            "write occlusion volumes of moving objects instead of vertex values\n"
+            "occlusion volumes are for contact shadows\n"
+            "one volume for each object that moves as one part, and for each bone of a skinned figure\n"
+            "not with --texels, --attribute, --bent-normals, --fit, --enclosed, --falloff, --max-distance")
         ->excludes(texels)
         ->excludes("--attribute")
         ->excludes("--bent-normals");
@@ -307,12 +311,14 @@ void add_falloff(CLI::App* command, Falloff& falloff) {
             },
             "let surfaces at DISTANCE metres block half of the light\n"
             "nearer surfaces block more, farther ones less (obscurance)\n"
-            "SHARE: weight of a distance, as 2:97,300:3 for 97 % and 3 %\n"
-            "default: surfaces block all light at any distance")
+            "SHARE: weight of a distance [1], as 2:97,300:3 for 97 % and 3 %\n"
+            "not with --occluders; default: surfaces block all light at any distance")
         ->allow_extra_args(false)
         ->type_name("DISTANCE[:SHARE],...");
     command
-        ->add_option("--max-distance", falloff.farthest, "ignore surfaces beyond X metres; default: no limit")
+        ->add_option("--max-distance", falloff.farthest,
+                     "ignore surfaces beyond X metres; default: no limit\n"
+                     "nearer surfaces as by --falloff; not with --occluders")
         ->check(above_zero());
 }
 
@@ -329,13 +335,16 @@ void add_ao(CLI::App& app, Session& session) {
     command
         ->add_option("--rays", a.rays,
                      "number of rays per vertex, texel or point\n"
-                     "point: of an occlusion volume of --occluders")
+                     "1 to 2^24; point: of an occlusion volume of --occluders")
         ->check(CLI::Range(1, kMaxRays))
         ->default_str("1024; --occluders: 256");
-    add_fit(command, a.options.fit, "points where the occlusion of vertices is measured");
+    add_fit(command, a.options.fit,
+            "points where the occlusion of vertices is measured\n"
+            "not with --texels and --occluders");
     command->get_option("--texels")->excludes("--fit");
     add_no_shadow(command, a.no_shadow);
-    add_back_sides(command, a.back_sides);
+    add_back_sides(command, a.back_sides,
+                   "\nalways shared for --texels without unwrap; no effect with --occluders");
     add_device(command, a.options.tracer);
     add_enclosed(command, a.options.repairs.inside);
     for (const char* of_vertices : {"--fit", "--enclosed"})

@@ -50,7 +50,10 @@ struct BakeArguments {
 constexpr Choice<BakeMethod> kBakeMethods[] = {
     {"trace", BakeMethod::trace, "rays, traced by the processor of --device"},
     {"raster", BakeMethod::raster,
-     "depth maps from --rays directions, drawn by OpenGL on a GPU; direct light only"}};
+     "depth maps of --rays directions, drawn by OpenGL 4.5; only direct light at vertices\n"
+     "  not with --bounces, --texels, --volume, --refine, --target-error, --fit surface\n"
+     "  not with --instances shared\n"
+     "  --device auto: only a hardware GPU; gpu: also a software driver; other values: an error"}};
 constexpr Choice<std::optional<TransferStorage>> kStorages[] = {
     {"auto", std::nullopt,
      "float16 if its rounding error is below 1/10 of the noise of the rays, else float32"},
@@ -63,7 +66,7 @@ constexpr Choice<LampMode> kLampModes[] = {
     {"all", LampMode::all, "direct light and bounces"},
     {"indirect", LampMode::indirect,
      "bounces only, for renderers that add the direct light of lamps with shadows"},
-    {"none", LampMode::none, "no light of lamps: the bake contains only light of the sky"}};
+    {"none", LampMode::none, "no light of lamps, only light of the sky; radius, rays and group are errors"}};
 
 int parse_bounces(const std::string& text) {
     if (text == "inf")
@@ -133,7 +136,8 @@ void add_transport(CLI::App* command, BakeOptions& options) {
         ->add_option_function<std::string>(
             "--bounces", [&options](const std::string& text) { options.bounces = parse_bounces(text); },
             "number of bounces between surfaces; 0: direct light only\n"
-            "N: 0 to 10000; inf: all bounces, until the remaining light is negligible")
+            "N: 0 to 10000; inf: all bounces, until the remaining light is negligible\n"
+            "only 0 with --method raster")
         ->type_name("N|inf")
         ->default_str("0");
     command
@@ -158,12 +162,15 @@ void add_transport(CLI::App* command, BakeOptions& options) {
             "names: " +
                 names_of_media() +
                 "\n"
-                "repeat the option for several materials; default: only KHR_materials_volume scatters")
+                "repeat the option for several materials; for a material the last entry that applies is "
+                "used\n"
+                "default: only materials with KHR_materials_volume scatter; an entry replaces their medium")
         ->allow_extra_args(false) // one each time, so that the scene may follow
         ->type_name("[MATERIAL=]MEDIUM");
     command
         ->add_option("--metres-per-unit", options.subsurface.metres_per_unit,
-                     "length of one unit of the scene in metres; only for --subsurface")
+                     "length of one unit of the scene in metres; needs --subsurface\n"
+                     "1e-9 to 1e9; also applied to KHR_materials_volume, not to lamps and distances")
         ->capture_default_str()
         ->check(real_in(1e-9, 1e9));
     add_enclosed(command, options.repairs.inside);
@@ -180,32 +187,40 @@ LampGroup parse_group(const std::string& text) {
 void add_lamps(CLI::App* command, LampOptions& lamps) {
     Suboptions("--lamps", names_of(kLampModes), "part of the light of lamps that is baked",
                [&lamps](const std::string& name) { lamps.mode = chosen("--lamps", kLampModes, name); })
-        .detail("lamps: lights of the scene (KHR_lights_punctual) and emissive materials")
+        .detail("lamps: lights of the scene (KHR_lights_punctual) and emissive materials, at most 64 names")
         .detail(explained(kLampModes).substr(1))
         .number("radius", 0, 1e9, "radius of point and spot lights, metres; larger: softer shadows [0]",
                 [&lamps](double metres) { lamps.radius = metres; })
-        .whole_number("rays", 1, kMaxRays, "rays from a vertex, texel or probe to all lamps of one name [64]",
+        .whole_number("rays", 1, kMaxRays,
+                      "rays from a vertex, texel or probe to the lamps of one name [64]\n"
+                      "  for emissive materials and for lights with radius; other lights get one ray",
                       [&lamps](int rays) { lamps.rays = rays; })
         .key("group", "NAME=PATTERN", "combine lamps whose names match PATTERN into one lamp NAME",
              [&lamps](const std::string& text) { lamps.groups.push_back(parse_group(text)); })
         .repeatable()
-        .detail("  PATTERN: * matches any letters, ? matches one letter; repeat group= for several groups")
+        .detail("  name: of a light or an emissive material; repeat group= for several groups")
+        .detail("  PATTERN: * matches any letters, ? matches one letter; upper and lower case differ")
         .add(command)
         ->default_str("all");
 }
 
 void add_method(CLI::App* command, BakeOptions& options) {
     choice(command, "--denoise", options.repairs.denoise, kDenoise,
-           "removal of the noise of rays from the baked light", "on");
+           "removal of the noise of rays from the baked light\n"
+           "no effect with --fit surface, --method raster and --instances shared",
+           "on");
     add_device(command, options.tracer);
-    add_fit(command, options.fit, "points where the light of vertices is measured");
+    add_fit(command, options.fit,
+            "points where the light of vertices is measured\n"
+            "not with --texels; always surface with --refine\n"
+            "always vertex with --target-error, --method raster and --instances shared");
     Suboptions("--method", names_of(kBakeMethods), "method that finds which directions are blocked",
                [&options](const std::string& name) {
                    options.tracer.method = chosen("--method", kBakeMethods, name);
                })
         .detail(explained(kBakeMethods).substr(1))
         .whole_number("resolution", 16, 16384,
-                      "for raster: number of texels along each side of a depth map [1024]",
+                      "texels along each side of a depth map, 16 to 16384; needs raster [1024]",
                       [&options](int texels) { options.tracer.raster_resolution = texels; })
         .add(command)
         ->default_str("trace");
@@ -220,6 +235,8 @@ void add_refinement(CLI::App* command, BakeArguments& a) {
                })
         .detail("ERROR: relative L2 interpolation error of direct light over the surface, as 0.02 (2 %)")
         .detail("the written mesh contains the new vertices; default: no triangle is split")
+        .detail("stops earlier at the maximum number of vertices, and at very short edges")
+        .detail("fits light to the surface; not with --fit vertex, --target-error, --texels, --method raster")
         .whole_number("vertices", 1, std::numeric_limits<int>::max(),
                       "maximum number of vertices [4 x those of the scene, at least 20000]",
                       [&a](int count) { a.finer.max_vertices = static_cast<std::size_t>(count); })
@@ -466,7 +483,7 @@ void add_bake(CLI::App& app, Session& session) {
         ->check(CLI::Range(1, kMaxOrder));
     CLI::Option* rays = command
                             ->add_option("--rays", a.options.rays,
-                                         "number of rays per vertex, texel or probe\n"
+                                         "number of rays per vertex, texel or probe, 1 to 2^24\n"
                                          "with --method raster: number of directions of depth maps")
                             ->capture_default_str()
                             ->check(CLI::Range(1, kMaxRays));
@@ -474,7 +491,9 @@ void add_bake(CLI::App& app, Session& session) {
         ->add_option(
             "--target-error", a.options.target_error,
             "trace rays until direct light has at most this relative L2 noise\n"
-            "0.01: 1 %; replaces --rays: the number of rays differs between vertices; default: --rays")
+            "0.01: 1 %; light of the sky; the number of rays differs between vertices; default: --rays\n"
+            "not with --rays, --texels, --volume, --refine, --fit surface, --method raster,\n"
+            "  --instances shared")
         ->check(above_zero())
         ->excludes(rays);
     add_transport(command, a.options);
@@ -483,8 +502,12 @@ void add_bake(CLI::App& app, Session& session) {
     add_no_shadow(command, a.no_shadow);
     add_method(command, a.options);
     add_refinement(command, a);
-    add_back_sides(command, a.back_sides);
-    add_texels(command, a.texels, "bake lightmaps of this size instead of vertices; default: vertices")
+    add_back_sides(command, a.back_sides,
+                   "\nalways shared for shared instances, and for --texels without unwrap");
+    add_texels(command, a.texels,
+               "bake lightmaps of this size instead of vertices; default: vertices\n"
+               "not with --fit, --refine, --target-error, --method raster and --instances shared\n"
+               "not for materials with subsurface scattering or diffuse transmission")
         ->excludes(command->get_option("--fit")); // texels measure light at their centers
     add_volume(command, a.volume);
     add_instances(command, a.instances);

@@ -97,7 +97,7 @@ void add_bench_device(CLI::App* command, BenchArguments& a, CLI::Option* scene) 
             },
             "GPU to measure, in addition to the CPU; default: automatic\n"
             "N: the GPU with this number in the list\n"
-            "NAME: the GPU whose name in the list contains NAME\n"
+            "NAME: the only GPU whose name in the list contains NAME, in upper or lower case\n"
             "list: print the list of GPUs and exit; needs no scene\n"
             "default: a hardware GPU before a software driver, then the one with the largest memory")
         ->type_name("N|NAME|list");
@@ -120,14 +120,19 @@ void add_bench(CLI::App& app, Session& session) {
     command
         ->add_option_function<std::string>(
             "--rays", [&a](const std::string& text) { set_rays(text, a.options); },
-            "rays per vertex: FROM, doubled in each next run up to TO")
+            "rays per vertex: FROM, doubled in each next run up to TO\n"
+            "1 to 262144, FROM at most TO; with depth maps: number of directions")
         ->type_name("FROM..TO")
         ->default_str(fmt::format("{}..{}", a.options.fewest_rays, a.options.max_rays));
     Suboptions("--method", "", "setting of the runs that use depth maps", nullptr)
-        .whole_number("resolution", 16, 16384, "number of texels along each side of a depth map [1024]",
+        .whole_number("resolution", 16, 16384,
+                      "number of texels along each side of a depth map, 16 to 16384 [1024]",
                       [&a](int texels) { a.options.raster_resolution = texels; })
         .add(command);
-    command->add_option("--seconds", a.options.max_seconds, "skip runs that would take longer than X seconds")
+    command
+        ->add_option("--seconds", a.options.max_seconds,
+                     "skip runs that would take longer than X seconds\n"
+                     "the first run of each method is never skipped")
         ->capture_default_str()
         ->check(real_in(0, 1e9));
     add_seed(command, a.options.seed);

@@ -466,8 +466,8 @@ Report report_of(const CompressArguments& a, const SearchOptions& options, const
     }
     if (s.lamp_contrast > 0) {
         add_figures(report, {{"lamp_contrast", s.lamp_contrast}});
-        report.sentences.emplace_back("contrast error of each lamp alone: {lamp_contrast:.2%} (root mean "
-                                      "square)");
+        report.sentences.emplace_back("contrast error of lamps, with one lit at a time: {lamp_contrast:.2%} "
+                                      "(root mean square over all lamps)");
     }
     if (outcome.best)
         add_promises(options, *outcome.best, covers, report);

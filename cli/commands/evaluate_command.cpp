@@ -27,10 +27,14 @@ namespace {
 enum class Measure { sweep, budget, volume };
 constexpr Choice<Measure> kMeasures[] = {
     {"sweep", Measure::sweep,
-     "error against bytes and shader cost, for several compression methods; takes minutes"},
+     "error against bytes and shader cost, for several compression methods; takes minutes\n"
+     "  compresses the first file"},
     {"budget", Measure::budget,
-     "parts of the surface error by cause, with advice; path traces and bakes once more"},
-    {"volume", Measure::volume, "error of the probe volume against path tracing, by distance from surfaces"}};
+     "parts of the surface error by cause, with advice; path traces and bakes once more\n"
+     "  a second file must be compressed; not with subsurface scattering and --rotations above 1"},
+    {"volume", Measure::volume,
+     "error of the probe volume against path tracing, by distance from surfaces\n"
+     "  the first file must contain a volume, and a second file its compressed volume"}};
 
 struct EvaluateArguments {
     Path baked, shipped;
@@ -161,7 +165,7 @@ void add_measures(CLI::App* command, std::set<Measure>& measures) {
                     measures.insert(chosen("--measure", kMeasures, name));
             },
             "further measurement of the files; repeat the option for several\n"
-            "default: only the errors of the second file" +
+            "default: only the errors of the second file, which is then required" +
                 explained(kMeasures))
         ->allow_extra_args(false) // one each time, so that the files may follow
         ->type_name(names_of(kMeasures));
@@ -179,27 +183,32 @@ void add_evaluate(CLI::App& app, Session& session) {
     command->add_option("baked", a.baked, "bake that is the reference: output of prt bake")
         ->required()
         ->check(named);
-    command->add_option("shipped", a.shipped, "output of prt compress, or another bake of the same scene")
+    command->add_option("shipped", a.shipped, "compressed file or other bake; not needed with --measure")
         ->check(named);
-    CLI::Option* lights = add_lights(command, a.lights,
-                                     "light under which errors are measured\n"
-                                     "uniform, overcast, sun: three built-in lights")
-                              ->default_str("uniform, overcast, sun");
+    CLI::Option* lights =
+        add_lights(
+            command, a.lights,
+            "light under which errors are measured\n"
+            "default: built-in lights: a uniform sky, an overcast sky and a sun; FILE replaces all three")
+            ->default_str("three built-in lights");
     add_light_options(command, a.light_options);
     add_suns(command, a.suns,
-             "number of suns of --lights for which a renderer has shadow maps\n"
-             "errors are measured with these suns in the sky, and with these suns separate",
+             std::string("number of suns of --lights for which a renderer has shadow maps\n"
+                         "errors are measured with these suns in the sky, and with these suns separate\n"
+                         "needs --lights\n") +
+                 kSunsOfLightFiles,
              "auto");
     command
         ->add_option("--rotations", a.rotations,
                      "number of rotations about +Y of each file of --lights\n"
-                     "equally spaced over 360 degrees, 1 to 64; 1: only the rotation of --rotate")
+                     "equally spaced over 360 degrees, 1 to 64; 1: only the rotation of --rotate\n"
+                     "needs --lights; only 1 with --measure budget, and no effect on --measure volume")
         ->capture_default_str()
         ->check(CLI::Range(1, 64))
         ->needs(lights);
     command->get_option("--suns")->needs(lights);
     add_measures(command, a.measures);
-    add_no_shadow(command, a.no_shadow);
+    add_no_shadow(command, a.no_shadow, "\nthe names that prt bake got; used by --measure budget and volume");
     add_reading(command, a.reading);
     add_threads(command, a.threads);
     add_reports(command, a.files);

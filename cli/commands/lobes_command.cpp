@@ -196,12 +196,13 @@ void add_quality(CLI::App* command, LobesArguments& a) {
              [&a](const std::string& name) { a.animation = name; })
         .add(command)
         ->default_str("8");
-    command->add_option("--rays", a.bake.rays, "number of rays per vertex and pose")
+    command->add_option("--rays", a.bake.rays, "number of rays per vertex and pose, 1 to 2^24")
         ->capture_default_str()
         ->check(CLI::Range(1, kMaxRays));
     command
         ->add_option("--bounces", a.bake.bounces,
-                     "number of bounces between surfaces of the model; 0: direct light")
+                     "number of bounces between surfaces of the model\n"
+                     "0 to 10000; 0: direct light only")
         ->capture_default_str()
         ->check(CLI::Range(0, kMaxBounces));
 }

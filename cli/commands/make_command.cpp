@@ -15,6 +15,12 @@
 namespace prt::cli {
 namespace {
 
+constexpr const char* kMaxErrorText =
+    "find the fewest bytes per vertex with at most this error\n"
+    "relative L2 over the surface against path tracing, root mean square over --lights\n"
+    "lamps of the scene are off; each light has only the rotation of --rotate\n"
+    "default: 0.03 (3 %), or 1.2 times the error before compression if that is larger";
+
 struct MakeArguments {
     MakeRequest request;
     ReportFiles files;
@@ -54,20 +60,18 @@ void add_make(CLI::App& app, Session& session) {
         ->required()
         ->check(named);
     add_output(command, r.output, "write the compressed model to this file, .glb");
-    add_lights(command, r.lights, "light in which the model will be used")->required();
-    CLI::Option* error =
-        command
-            ->add_option(
-                "--max-error", r.goal.max_error,
-                "find the fewest bytes per vertex with at most this error\n"
-                "relative L2 over the surface against path tracing, root mean square over all lights\n"
-                "default: 0.03 (3 %), or 1.2 times the error of light and vertices if that is larger")
-            ->check(above_zero())
-            ->default_str("0.03");
+    add_lights(command, r.lights,
+               "light in which the model will be used\n"
+               "its suns are separate, up to 4 of an image, because renderers have shadow maps for them")
+        ->required();
+    CLI::Option* error = command->add_option("--max-error", r.goal.max_error, kMaxErrorText)
+                             ->check(above_zero())
+                             ->default_str("0.03");
     command
         ->add_option("--bytes-per-vertex", r.goal.bytes_per_vertex,
                      "find the minimum error with at most X bytes per vertex, with bases\n"
-                     "X: the bytes of its 32-bit words, plus the bytes of all bases / number of vertices")
+                     "X: the bytes of its 32-bit words, plus the bytes of all bases / number of vertices\n"
+                     "replaces the goal --max-error and cannot be combined with it")
         ->check(above_zero())
         ->excludes(error);
     command
@@ -77,7 +81,8 @@ void add_make(CLI::App& app, Session& session) {
         ->check(above_zero());
     command
         ->add_flag("--best-effort", r.goal.best_effort,
-                   "write the closest result if --max-error is not met; default: error")
+                   "write the closest result if --max-error is not met; default: error\n"
+                   "only with --max-error; without a goal, the closest result is always written")
         ->needs(error);
     command
         ->add_option("--keep-bake", r.baked,

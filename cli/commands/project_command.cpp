@@ -130,14 +130,19 @@ void add_project(CLI::App& app, Session& session) {
         command, [&session](const ProjectArguments& given) { run(given, session); });
     command
         ->add_option("environment", a.environment,
-                     "image (.exr, .hdr, .png, .jpg); {face}: 6 files, px nx py ny pz nz")
+                     "environment image (.exr, .hdr, .png, .jpg) or light file (.json)\n"
+                     "                              sky_{face}.hdr: six files, sky_px.hdr, sky_nx.hdr, and "
+                     "py, ny, pz, nz")
         ->required()
         ->check(named);
     add_output(command, a.output, "write the light to this file, .json");
     command->add_option("--order", a.order, "SH order N of the light, 1 to 10: N² coefficients")
         ->capture_default_str()
         ->check(CLI::Range(1, kMaxOrder));
-    add_suns(command, a.suns, "number of suns that are written separately from the sky", "0");
+    add_suns(command, a.suns,
+             "number of suns that are written separately from the sky\n"
+             "light file: only 0, which adds its suns to the sky",
+             "0");
     add_light_options(command, a.light_options);
     add_threads(command, a.threads);
     add_json(command, a.json);

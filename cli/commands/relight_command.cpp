@@ -211,13 +211,18 @@ void add_relight(CLI::App& app, Session& session) {
         check_light_options(*command, !given.environment.empty());
         run(given, session);
     });
-    command->add_option("model", a.model, "model to light: output of prt bake or prt compress")
+    command
+        ->add_option("model", a.model,
+                     "model to light: output of prt bake or prt compress, without lightmaps")
         ->required()
         ->check(named);
     add_light(command, a.environment);
     add_output(command, a.output, "write the model with light as vertex colors to this .glb");
-    add_suns(command, a.suns, "number of suns of --lights with sharp shadows, traced by rays", "auto",
-             &a.rays);
+    add_suns(command, a.suns,
+             std::string("number of suns of --lights with sharp shadows, traced by rays\n"
+                         "after prt compress --combine-direct: only 0, and auto acts as 0\n") +
+                 kSunsOfLightFiles,
+             "auto", &a.rays);
     add_lamps(command, a.lamps);
     choice(command, "--colors", a.colors, kColors, "values of the vertex colors, COLOR_0", "radiance");
     add_exposure(command, a.exposure);

@@ -81,20 +81,28 @@ struct RenderArguments {
 
 constexpr Choice<Show> kShows[] = {
     {"lit", Show::lit, "the model in the light of sky and lamps"},
-    {"clusters", Show::clusters, "a color for each cluster of a compressed model"},
+    {"clusters", Show::clusters, "a color for each cluster; needs a compressed model"},
     {"error", Show::error,
-     "error against a reference\n"
+     "error against a reference: needs either --baked or --path-trace\n"
      "  --baked: contrast error, white: 10 %; --path-trace: HDR-FLIP, white: 1"},
-    {"ao", Show::ao, "ambient occlusion: the model under a uniform white sky, without lamps and textures"}};
+    {"ao", Show::ao,
+     "ambient occlusion: the model under a uniform white sky, without lamps and textures\n"
+     "  by the transfer of the model, which contains the bounces of the bake"}};
 constexpr Choice<ToneMap> kToneMaps[] = {
     {"filmic", ToneMap::filmic, "a film curve, which compresses dark and bright values softly"},
     {"srgb", ToneMap::srgb, "the sRGB curve; values above 1 are clipped"}};
 constexpr Choice<Backend> kDevices[] = {
     {"auto", Backend::automatic, "a hardware GPU if there is one, else the CPU"},
     {"cpu", Backend::cpu, "the CPU, by casting rays"},
-    {"gpu", Backend::gpu, "OpenGL 4.5 on a GPU, or on a software driver"}};
+    {"gpu", Backend::gpu,
+     "OpenGL 4.5 on a GPU, or on a software driver\n"
+     "  after prt bake --subsurface: --suns only 0, and auto acts as 0"}};
 
 constexpr int kUnshadowedOrder = 6;
+
+constexpr const char* kScaledGroups =
+    ", except in a group of prt bake that contains lights\n"
+    "prt bake --lamp-scale changed the baked light already: the factors multiply";
 
 /// The context to draw with; null: draw on the CPU.
 std::unique_ptr<GlContext> choose_backend(Backend backend, bool shadows_on_cpu) {
@@ -579,37 +587,48 @@ void add_render(CLI::App& app, Session& session) {
         ->required()
         ->check(named);
     add_light(command, a.environment);
-    add_output(command, a.output, "write the picture to this file, .png or .exr");
+    add_output(command, a.output,
+               "write the picture to this file, .png or .exr\n"
+               ".png: 8 bits; with --show lit exposed and with a tone curve; .exr: linear values");
     add_view(command, a.view);
     choice(command, "--device", a.backend, kDevices,
            "processor that draws the picture\n"
            "path tracing always runs on the CPU",
            "auto");
     choice(command, "--show", a.look.show, kShows, "quantity that the picture shows", "lit");
-    command->add_option("--baked", a.baked, "bake of the model, needed by --show error without --path-trace")
+    command
+        ->add_option("--baked", a.baked,
+                     "bake of the model: the reference of --show error\n"
+                     "output of prt bake; needed by --show error without --path-trace, else an error")
         ->type_name("FILE")
         ->check(named);
     command
         ->add_option("--path-trace", a.look.paths,
                      "path trace the scene with N paths per pixel; ignores transfer\n"
                      "traces all bounces; N: 2 to 1048576; default: the model is lit by its transfer\n"
-                     "with --show error: the path-traced picture is the reference")
+                     "only with --show lit or error; error: the path-traced picture is the reference\n"
+                     "--suns, --window and --samples have no effect on the path-traced picture")
         ->type_name("N")
         ->check(CLI::Range(2, 1 << 20));
     add_exposure(command, a.look.exposure);
-    choice(command, "--tone-map", a.look.tone_map, kToneMaps, "tone curve of .png pictures", "filmic");
+    choice(command, "--tone-map", a.look.tone_map, kToneMaps, "tone curve of .png pictures; needs --show lit",
+           "filmic");
     command
         ->add_option("--samples", a.view.samples,
                      "samples along each axis of a pixel, 1 to 16: N x N per pixel")
         ->capture_default_str()
         ->check(CLI::Range(1, 16));
     command->add_flag("!--no-background", a.look.background,
-                      "draw a black background; default: the image of --lights");
+                      "draw a black background; default: the image of --lights\n"
+                      "a light file has no image: the background is always black");
     add_light_options(command, a.light_options);
-    add_suns(command, a.lights.suns, "number of suns of --lights that are drawn with sharp shadows", "auto",
-             &a.lights.sun_rays);
+    add_suns(command, a.lights.suns,
+             std::string("number of suns of --lights that are drawn with sharp shadows\n"
+                         "after prt compress --combine-direct or prt lobes: only 0, and auto acts as 0\n") +
+                 kSunsOfLightFiles,
+             "auto", &a.lights.sun_rays);
     add_lamps(command, a.lights.lamps);
-    add_lamp_scale(command, a.lights.lamp_scale);
+    add_lamp_scale(command, a.lights.lamp_scale, kScaledGroups);
     add_reading(command, a.reading);
     add_threads(command, a.threads);
     add_json(command, a.json);

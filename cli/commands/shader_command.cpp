@@ -38,17 +38,21 @@ constexpr Choice<ShaderLanguage> kLanguages[] = {
     {"vulkan", ShaderLanguage::vulkan, "GLSL for Vulkan, to convert to SPIR-V and then to HLSL"}};
 constexpr Choice<ConstantSource> kConstants[] = {
     {"buffer", ConstantSource::buffer, "storage buffer; only for glsl450 and vulkan"},
-    {"block", ConstantSource::block, "uniform block; every driver allows 16 KB, which are 1024 constants"},
+    {"block", ConstantSource::block,
+     "uniform block; every driver allows 16 KB, which are 1024 constants; not for instances"},
     {"texture", ConstantSource::texture, "float texture"}};
 constexpr Choice<Stage> kStages[] = {
     {"vertex", Stage::vertex,
-     "relights vertices; for a lightmap: texels, by compute shader if the language has it"},
-    {"compute", Stage::compute, "compute shader that computes the constants of a lighting"},
+     "relights vertices; for a lightmap: texels, by compute shader if the language has it\n"
+     "  for a file with only a volume: as volume"},
+    {"compute", Stage::compute,
+     "compute shader that computes the constants of a lighting; glsl450 or vulkan"},
     {"fragment", Stage::fragment, "fragment shader that relights the texels of a lightmap"},
     {"instances", Stage::instances, "vertex shader for instances of prt bake --instances shared"},
     {"volume", Stage::volume, "functions that read the light of the probe volume, for all languages"},
     {"volume-compute", Stage::volume_compute,
-     "compute shader that writes the texture which the functions of volume read"},
+     "compute shader that writes the texture which the functions of volume read\n"
+     "  glsl450 or vulkan"},
     {"occluders", Stage::occluders, "functions for contact shadows of moving objects, for all languages"},
     {"lobes", Stage::lobes, "functions that relight figures of prt lobes, for all languages"}};
 
@@ -202,7 +206,8 @@ void add_shader(CLI::App& app, Session& session) {
     CLI::App* command = app.add_subcommand("shader", "Write the shaders that relight a compressed model");
     auto& a = arguments_for<ShaderArguments>(
         command, [&session](const ShaderArguments& given) { run(given, session); });
-    command->add_option("model", a.model, "model to relight: output of prt compress")
+    command
+        ->add_option("model", a.model, "model to relight: prt compress output; --stage lobes: of prt lobes")
         ->required()
         ->check(named);
     add_output(command, a.output, "write the GLSL source to this file");
@@ -210,7 +215,8 @@ void add_shader(CLI::App& app, Session& session) {
            "glsl450");
     choice(command, "--constants", a.constants, kConstants,
            "GPU storage of the constants\n"
-           "constants: values that your program uploads for each lighting",
+           "constants: values that your program uploads for each lighting\n"
+           "only for the stages vertex, fragment and instances; default: buffer if the language has it",
            "buffer, else texture");
     choice(command, "--stage", a.stage, kStages, "shader to write", "vertex")->type_name("STAGE");
     add_reading(command, a.reading);

@@ -53,7 +53,9 @@ std::vector<Lighting> skies_to_promise(const std::vector<Lighting>& given, std::
 
 std::string coverage(const MetricArguments& arguments, const TransferLayout& layout, std::size_t promised) {
     if (layout.distant_terms().empty())
-        return "the limits hold for each lamp alone";
+        return "the limits hold on average over the lamps, with one lamp lit at a time; the error of a "
+               "single lamp "
+               "may be larger";
     if (!arguments.lights.empty())
         return fmt::format(
             "the limits hold under {} (--lights) at every rotation about +Y, with suns in the sky or "
