@@ -4,6 +4,7 @@
 
 #include "bake/pipeline/direct.h"
 #include "bake/pipeline/light_transport.h"
+#include "prt/bake/bake.h"
 
 namespace prt {
 

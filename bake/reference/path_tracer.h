@@ -7,6 +7,7 @@
 #include "bake/reference/scene_lamps.h"
 #include "bake/scene/trace_scene.h"
 #include "prt/bake/bake_options.h"
+#include "prt/core/progress.h"
 #include "prt/render/camera.h"
 
 #include <array>

@@ -223,6 +223,7 @@ void add_relight(CLI::App& app, Session& session) {
                          "after prt compress --combine-direct: only 0, and auto acts as 0\n") +
                  kSunsOfLightFiles,
              "auto", &a.rays);
+    command->get_option("--suns")->needs("--lights");
     add_lamps(command, a.lamps);
     choice(command, "--colors", a.colors, kColors, "values of the vertex colors, COLOR_0", "radiance");
     add_exposure(command, a.exposure);

@@ -627,6 +627,7 @@ void add_render(CLI::App& app, Session& session) {
                          "after prt compress --combine-direct or prt lobes: only 0, and auto acts as 0\n") +
                  kSunsOfLightFiles,
              "auto", &a.lights.sun_rays);
+    command->get_option("--suns")->needs("--lights");
     add_lamps(command, a.lights.lamps);
     add_lamp_scale(command, a.lights.lamp_scale, kScaledGroups);
     add_reading(command, a.reading);

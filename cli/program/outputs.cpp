@@ -15,6 +15,8 @@
 
 namespace prt::cli {
 
+using pipeline::Path;
+
 namespace {
 
 /// Suffixes that indicate the content of a file.

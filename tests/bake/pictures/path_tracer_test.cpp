@@ -2,6 +2,7 @@
 
 #include "bake/reference/path_tracer.h"
 #include "bake/reference/ray_renderer.h"
+#include "prt/bake/bake.h"
 #include "support/scene_builder.h"
 
 #include <glm/common.hpp>

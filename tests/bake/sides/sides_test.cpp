@@ -3,6 +3,7 @@
 #include "bake/refine/sides.h"
 
 #include "bake/scene/opposite_triangles.h"
+#include "prt/bake/bake.h"
 #include "support/scene_builder.h"
 
 #include <glm/geometric.hpp>

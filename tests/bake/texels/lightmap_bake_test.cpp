@@ -1,6 +1,7 @@
 // Tests transfer of texels: closed forms, energy, and scenes that cannot be baked into texels.
 
 #include "bake/products/lightmaps/unwrap.h"
+#include "bake/scene/receivers.h"
 #include "prt/bake/lightmap_bake.h"
 #include "prt/core/error.h"
 #include "prt/core/sh.h"
