@@ -1,6 +1,6 @@
 // The comparison of methods: a small run.
 
-#include "cli/report/report.h"
+#include "report.h"
 
 #include "runtime/support/file.h"
 
