@@ -30,8 +30,8 @@ using real = double;
 using uint = std::uint32_t;
 using vec2 = glm::dvec2;
 using vec3 = glm::dvec3;
-using glm::abs, glm::atan, glm::ceil, glm::clamp, glm::cos, glm::cross, glm::dot, glm::length, glm::max,
-    glm::min, glm::normalize, glm::sin, glm::sqrt;
+using glm::abs, glm::atan, glm::ceil, glm::clamp, glm::cos, glm::cross, glm::dot, glm::length, glm::max, glm::min,
+    glm::normalize, glm::sin, glm::sqrt;
 } // namespace prt::glsl_double
 
 #else
