@@ -148,16 +148,18 @@ void NoiseFilter::apply_to(const FitSolver& solver, const RepresentativeColumns&
 
 void NoiseFilter::apply(const FitSolver& solver, std::size_t columns, const Values& light,
                         const Write& write) const {
-    constexpr std::size_t kBlock = 8; // columns of the solver; blocks limit the memory
-    parallel_for((columns + kBlock - 1) / kBlock, 1, threads_, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t block = begin; block < end; ++block) {
-            RepresentativeColumns some;
-            for (std::size_t c = block * kBlock; c < std::min(columns, (block + 1) * kBlock); ++c)
-                some.columns.push_back(c);
-            some.factors.assign(some.size(), 1.0f);
-            apply_to(solver, some, light, write);
-        }
-    });
+    constexpr std::size_t kColumnsAtOnce = 8; // columns of the solver; blocks limit the memory
+    parallel_for((columns + kColumnsAtOnce - 1) / kColumnsAtOnce, 1, threads_,
+                 [&](std::size_t begin, std::size_t end) {
+                     for (std::size_t block = begin; block < end; ++block) {
+                         RepresentativeColumns some;
+                         for (std::size_t c = block * kColumnsAtOnce;
+                              c < std::min(columns, (block + 1) * kColumnsAtOnce); ++c)
+                             some.columns.push_back(c);
+                         some.factors.assign(some.size(), 1.0f);
+                         apply_to(solver, some, light, write);
+                     }
+                 });
 }
 
 void NoiseFilter::apply(const FitSolver& solver, Transfer& light) const {
