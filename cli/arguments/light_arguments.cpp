@@ -36,7 +36,7 @@ constexpr Choice<MapLayout> kLayouts[] = {
      "six faces in a column; edge texels are centered on the edges of the cube (OpenEXR)"},
     {"cube-faces",
      {EnvironmentLayout::cube_faces},
-     "six faces in a column; no texel is shared by faces (OpenGL, Direct3D)"},
+     "six faces in a column, a row or a cross; no texel is shared by faces (OpenGL, Direct3D)"},
     {"angular",
      {EnvironmentLayout::angular},
      "light probe (Debevec): all directions in a circle; the center shows -z"}};

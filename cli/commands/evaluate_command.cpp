@@ -104,8 +104,9 @@ std::vector<Path> check(const EvaluateArguments& a) {
             "evaluate",
             "a second file or --measure is missing; examples: prt evaluate BAKED.glb SHIPPED.glb; prt "
             "evaluate BAKED.glb --measure sweep; prt evaluate BAKED.glb --measure budget");
-    if (a.measures.contains(Measure::budget) && a.rotations != 1)
-        throw CLI::ValidationError("--rotations", "cannot be combined with --measure budget; use --rotate");
+    if (a.rotations != 1 && (a.measures.contains(Measure::budget) || a.measures.contains(Measure::volume)))
+        throw CLI::ValidationError("--rotations",
+                                   "cannot be combined with --measure budget and volume; use --rotate");
     std::vector<Path> inputs = a.lights;
     inputs.insert(inputs.end(), {a.baked, a.shipped});
     return check_outputs({{a.files.json, "--json", {".json"}},

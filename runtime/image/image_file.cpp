@@ -164,6 +164,9 @@ EnvironmentFile load_environment(const std::filesystem::path& path, const Enviro
             layout = file.layout;
         if (!layout)
             layout = unfold_cross(result);
+        else if (*layout == EnvironmentLayout::cube_faces)
+            if (std::optional<Image> faces = faces_of_cross(result.environment.image))
+                result.environment.image = std::move(*faces);
     }
     try {
         result.environment.layout = layout_of(result.environment.image, layout);

@@ -15,6 +15,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include <optional>
+
 #include <algorithm>
 
 namespace prt {
@@ -250,7 +252,8 @@ TEST(ImageCorpus, NukeMultipartExr) {
 }
 
 /// An image of cells of 2 x 2 pixels; `cells` are numbers of faces, -1: black.
-EnvironmentFile read_cells(int width, const std::vector<int>& cells, float marked = 0) {
+EnvironmentFile read_cells(int width, const std::vector<int>& cells, float marked = 0,
+                           std::optional<EnvironmentLayout> layout = {}) {
     const int height = static_cast<int>(cells.size()) / width;
     Image image{2 * width, 2 * height, {}};
     for (int y = 0; y < image.height; ++y)
@@ -260,7 +263,7 @@ EnvironmentFile read_cells(int width, const std::vector<int>& cells, float marke
     image.pixels[0].x = marked > 0 ? marked : image.pixels[0].x;
     const test::TemporaryFolder folder;
     write_exr(folder / "a.exr", image);
-    return load_environment(folder / "a.exr");
+    return load_environment(folder / "a.exr", {.layout = layout});
 }
 
 TEST(ImageCorpus, CubeMapsAsCrossesAndRows) {
@@ -271,6 +274,9 @@ TEST(ImageCorpus, CubeMapsAsCrossesAndRows) {
     for (const auto& [width, cells] : kUnfolded) {
         const EnvironmentFile file = read_cells(width, cells);
         EXPECT_EQ(file.notices.size(), 1u);
+        const EnvironmentFile named = read_cells(width, cells, 0, EnvironmentLayout::cube_faces);
+        EXPECT_TRUE(named.notices.empty());
+        EXPECT_EQ(named.environment.image.pixels, file.environment.image.pixels);
         for (int face = 0; face < 6; ++face)
             EXPECT_EQ(sample(file.environment, directions[face]), glm::vec3(static_cast<float>(1 + face)))
                 << width << " " << face;

@@ -27,8 +27,9 @@ float srgb_decode(float encoded);
 /// Settings for reading an environment map.
 struct EnvironmentOptions {
     /// Layout of the image; replaces the layout that the file specifies. Without a value: `cube_faces` for
-    /// six files; else the EXR attribute `envmap`; else the shape. A cross or a row of cube faces is
-    /// converted to `cube_faces`, 2:1 is `lat_long`, 1:6 is `cube`.
+    /// six files; else the EXR attribute `envmap`; else the shape: a cross or a row of cube faces is
+    /// `cube_faces`, 2:1 is `lat_long`, 1:6 is `cube`. For `cube_faces`, faces in a cross or a row are moved
+    /// into a column.
     std::optional<EnvironmentLayout> layout;
     /// Treatment of pixels with a NaN, infinite or negative component. Default: throw `Error`.
     BadPixels bad_pixels = BadPixels::error;
