@@ -288,9 +288,10 @@ void add_outputs(CLI::App* command, AoArguments& a) {
     command
         ->add_flag(
             "--occluders", a.outputs.occluders,
-            "write occlusion volumes of moving objects instead of vertex values\n"
-            "occlusion volumes are for contact shadows\n"
-            "one volume for each object that moves as one part, and for each bone of a skinned figure\n"
+            "write occlusion volumes of all objects of the scene, not vertex values\n"
+            "for contact shadows of moving objects: the scene should contain no static ground and walls\n"
+            "object: a root node with its children; animated nodes and bones are separate objects\n"
+            "parts smaller than 12 % of the scene are merged into the part above them\n"
             "not with --texels, --attribute, --bent-normals, --fit, --enclosed, --falloff, --max-distance")
         ->excludes(texels)
         ->excludes("--attribute")

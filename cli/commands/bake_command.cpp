@@ -162,9 +162,10 @@ void add_transport(CLI::App* command, BakeOptions& options) {
             "names: " +
                 names_of_media() +
                 "\n"
-                "repeat the option for several materials; for a material the last entry that applies is "
-                "used\n"
-                "default: only materials with KHR_materials_volume scatter; an entry replaces their medium")
+                "repeat the option for several materials, each once; an entry for all materials comes first\n"
+                "default: materials scatter that have KHR_materials_diffuse_transmission, and\n"
+                "  KHR_materials_volume with thickness and attenuation distance\n"
+                "an entry replaces their medium")
         ->allow_extra_args(false) // one each time, so that the scene may follow
         ->type_name("[MATERIAL=]MEDIUM");
     command

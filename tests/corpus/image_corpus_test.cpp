@@ -15,9 +15,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include <optional>
-
 #include <algorithm>
+#include <optional>
 
 namespace prt {
 namespace {
