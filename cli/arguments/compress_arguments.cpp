@@ -84,7 +84,8 @@ void add_preset(CLI::App* command, SearchOptions& o) {
                   o.compress.coding.components, o.choose_components,
                   "limit of components per cluster; default: 16, or auto with a goal\n"
                   "auto: chosen for the goal: --max-error, --bytes-per-vertex or --shader-ops\n"
-                  "PCA components, 0 to 300; without --bits float at most 16 are used\n"
+                  "PCA components, 0 to 300; more than the coefficients of a vertex are an error\n"
+                  "without --bits float at most 16 are used\n"
                   "default with --bits float and without a goal: 8");
     command
         ->add_option_function<std::string>(
@@ -137,11 +138,11 @@ void add_goals(CLI::App* command, SearchOptions& o) {
             "with --max-error: only an additional limit; default: no limit")
         ->check(above_zero());
     command
-        ->add_option(
-            "--shader-ops", o.budget.operations,
-            "limit of the mean number of multiply-adds per vertex in the shader\n"
-            "one multiply-add of a color for each component and for each predictor row of a cluster\n"
-            "without another goal: find the minimum error; default: no limit")
+        ->add_option("--shader-ops", o.budget.operations,
+                     "limit of the mean number of multiply-adds per vertex in the shader\n"
+                     "one multiply-add of a color for each component, plus those of --predictors:\n"
+                     "  none: 0, normal: 3, position: 6\n"
+                     "without another goal: find the minimum error; default: no limit")
         ->check(above_zero());
 }
 

@@ -56,7 +56,8 @@ constexpr Choice<BakeMethod> kBakeMethods[] = {
      "  --device auto: only a hardware GPU; gpu: also a software driver; other values: an error"}};
 constexpr Choice<std::optional<TransferStorage>> kStorages[] = {
     {"auto", std::nullopt,
-     "float16 if its rounding error is below 1/10 of the noise of the rays, else float32"},
+     "float16 if its rounding error is below 1/10 of the noise of the rays, else float32\n"
+     "  probes of --volume: float16 if its rounding error is below 0.1 %, else float32"},
     {"float16", TransferStorage::float16, "2 bytes per coefficient"},
     {"float32", TransferStorage::float32, "4 bytes per coefficient"}};
 constexpr Choice<bool> kDenoise[] = {

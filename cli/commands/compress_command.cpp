@@ -513,7 +513,7 @@ std::vector<Path> check_files(const CompressArguments& a) {
 
 void check_components(const CompressArguments& a, const TransferView& transfer) {
     const int asked = a.options.compress.coding.components;
-    if (a.components_given && asked > static_cast<int>(transfer.dimension()))
+    if (a.components_given && !a.options.choose_components && asked > static_cast<int>(transfer.dimension()))
         throw Error(fmt::format("--components must be in 0..{}, the length of a transfer vector, not {}",
                                 transfer.dimension(), asked));
 }

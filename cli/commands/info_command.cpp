@@ -243,7 +243,9 @@ void add_info(CLI::App& app, Session& session) {
     auto& a = arguments_for<InfoArguments>(command,
                                            [&session](const InfoArguments& given) { run(given, session); });
     command->add_option("file", a.file, "file to describe: any .gltf or .glb")->required()->check(named);
-    command->add_flag("--check", a.check, "also list problems with remedies; exit status 1 if there are any");
+    command->add_flag("--check", a.check,
+                      "also list problems with remedies; exit status 1 if there are any\n"
+                      "also parts that a bake ignores, as normal maps, for which no action is needed");
     add_reading(command, a.reading);
     add_json(command, a.json);
 }
