@@ -36,7 +36,7 @@ void add_volume(CLI::App* command, VolumeArguments& arguments) {
     };
     arguments.option =
         Suboptions(
-            "--volume", "METRES", "also bake a volume of probes, for moving objects; default: no volume",
+            "--volume", "METRES", "also bake probes at this distance, for moving objects; default: none",
             [&volume, check_one](const std::string& text) {
                 const std::optional<double> metres = real_number(text);
                 if (!metres || !(*metres >= 1e-9 && *metres <= static_cast<double>(kFarthestVertex)))

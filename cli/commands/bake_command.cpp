@@ -213,7 +213,7 @@ void add_method(CLI::App* command, BakeOptions& options) {
            "on");
     add_device(command, options.tracer);
     add_fit(command, options.fit,
-            "points where the light of vertices is measured\n"
+            "where light is measured: at the vertices, or at points between them\n"
             "not with --texels; always surface with --refine\n"
             "always vertex with --target-error, --method raster and --instances shared");
     Suboptions("--method", names_of(kBakeMethods), "method that finds which directions are blocked",
@@ -507,7 +507,7 @@ void add_bake(CLI::App& app, Session& session) {
     add_back_sides(command, a.back_sides,
                    "\nalways shared for shared instances, and for --texels without unwrap");
     add_texels(command, a.texels,
-               "bake lightmaps of this size instead of vertices; default: vertices\n"
+               "bake lightmaps of N x N texels, or N texels per metre, instead of vertices\n"
                "not with --fit, --refine, --target-error, --method raster and --instances shared\n"
                "not for materials with subsurface scattering or diffuse transmission")
         ->excludes(command->get_option("--fit")); // texels measure light at their centers

@@ -6,6 +6,7 @@
 #include "prt/gltf/transfer_gltf.h"
 #include "prt/image/image_file.h"
 #include "runtime/scene/gltf/vertex_fallback.h"
+#include "runtime/scene/mesh_edges.h"
 #include "runtime/support/file.h"
 #include "support/glb_file.h"
 #include "support/lightmap_model.h"

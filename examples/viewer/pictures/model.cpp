@@ -5,6 +5,7 @@
 #include "prt/bake/bake.h"
 #include "prt/core/error.h"
 #include "prt/render/lightmap_file.h"
+#include "runtime/scene/mesh_edges.h"
 
 #include <glm/geometric.hpp>
 

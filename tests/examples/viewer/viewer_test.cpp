@@ -10,6 +10,7 @@
 #include "prt/gl/gl_context.h"
 #include "prt/image/image_file.h"
 #include "runtime/scene/gltf/reorder.h"
+#include "runtime/scene/mesh_edges.h"
 #include "support/glb_file.h"
 #include "support/made_once.h"
 #include "support/scene_builder.h"

@@ -2,8 +2,8 @@
 
 #include "prt/core/cluster_lighting.h"
 #include "prt/core/lightmap.h"
-#include "support/random_lightmap.h"
 #include "runtime/transfer/texel_formats.h"
+#include "support/random_lightmap.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

@@ -17,8 +17,8 @@
 namespace prt {
 
 /// Errors of the transfer that a bake returns, measured at random points over the surface against light that
-/// is traced at these points. The errors contain noise and interpolation of all bounces. Points inside
-/// geometry, on media and on fully transparent surfaces are excluded.
+/// is traced at these points. They include the noise of the rays, and the interpolation error of direct light
+/// and of all bounces. Points inside geometry, on media and on fully transparent surfaces are excluded.
 struct BakeErrors {
     /// An error with its statistical uncertainty.
     struct Error {
@@ -51,10 +51,10 @@ struct BakeErrors {
     /// or through media. Both are relative to all light of the sky.
     Error direct, indirect;
     Error lamps; ///< error of the terms of all lamps together, each lamp with strength 1
-    /// Errors on back sides of two-sided surfaces, which show the light of their front sides. `backs`: error
-    /// of the light of the sky, at points where direct light of the sky reaches the back. `backs_by_lamps`:
-    /// error of the light of lamps, at points where direct light of lamps reaches the back. A node whose back
-    /// sides get almost no light has no points here, unless its surface transmits light.
+    /// Errors on back sides that have no receivers and therefore show the light of the front side. `backs`:
+    /// error of the light of the sky, at points where direct light of the sky reaches the back.
+    /// `backs_by_lamps`: error of the light of lamps, at points where direct light of lamps reaches the back.
+    /// A node whose back sides get almost no light has no points here, unless its surface transmits light.
     Error backs, backs_by_lamps;
     std::vector<LampError> each_lamp = {}; ///< [lamp terms] in the order of the terms
     std::vector<Node> nodes = {};          ///< nodes with at least one point, in the order of their first
@@ -99,9 +99,7 @@ struct BakeStatistics {
     };
     /// Wall-clock time of the stages of the bake in seconds.
     struct Seconds {
-        double build = 0; ///< time for building acceleration structures; loading textures is not included
-        double fit =
-            0; ///< time for fitting vertices to the surface; `bake` does not measure it and leaves it 0
+        double build = 0;     ///< time for building acceleration structures; loading textures is not included
         TraceSeconds tracing; ///< time for tracing rays
         double transport = 0; ///< time for bounces, subsurface scattering, and the noise filter or the
                               ///< solution of the surface fit
@@ -133,9 +131,9 @@ struct BakeStatistics {
     /// BakeMethod::raster, whose error is not estimated.
     double sampling_error = 0;
     double rounding_error = 0; ///< relative L2 error that storing the transfer as float16 causes; computed
-                               ///< for both number formats
-    /// Light of the bounces that were not computed, estimated as a geometric series: the largest norm of its
-    /// transfer vectors, relative to the largest norm of the baked transfer vectors. 0 if no bounce was
+                               ///< even if the result is stored as float32
+    /// Largest norm of a transfer vector of the bounces that were not computed, estimated as a geometric
+    /// series, divided by the largest norm of a baked transfer vector. 0 if no bounce was
     /// computed, 1 if the last bounce is not darker than the bounce before it. For kEndlessBounces without
     /// media: the estimated error of the sum over all bounces, relative to the largest coefficient. With
     /// lamps: the larger of the values for the sky and for the lamps.
@@ -160,8 +158,8 @@ struct BakeResult {
     std::optional<BakeErrors> errors; ///< errors over the surface; no value unless MeasureErrors::yes
 };
 
-/// Selects whether a bake measures `BakeErrors`, which adds the rays of some hundred to some thousand
-/// receivers.
+/// Selects whether a bake measures `BakeErrors`, with the additional rays of several hundred to several
+/// thousand receivers.
 enum class MeasureErrors { no, yes };
 
 /// Error of a bake with kEndlessBounces and lamps: the sum over the bounces of a lamp's light does not
@@ -173,9 +171,8 @@ struct EndlessLampLight : Error {
 /// Bakes transfer for every vertex of `scene`. On the CPU the result is deterministic for a given seed and
 /// does not depend on the number of threads. Throws `Error` for invalid options, media or lamp groups, for a
 /// missing or damaged texture (BadTextures::error), for a lamp that is too bright for files, for a bake that
-/// does not fit into memory, and if the backend is not available. Throws `GpuFailure`
-/// (bake/device/gpu_failure.h) if the GPU of Backend::gpu fails, `EndlessLampLight` if the light of lamps
-/// does not converge, and `Cancelled` after a stop request.
+/// does not fit into memory, and if the backend is not available. Throws `Error` if the GPU of Backend::gpu
+/// fails, `EndlessLampLight` if the light of lamps does not converge, and `Cancelled` after a stop request.
 BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& progress = {},
                 MeasureErrors errors = MeasureErrors::no);
 

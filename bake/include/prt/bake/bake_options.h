@@ -116,19 +116,19 @@ enum class Traversal {
 
 /// Settings that select a tracer.
 struct TracerChoice {
-    Backend backend = Backend::automatic;  ///< hardware that traces rays or draws depth maps
-    BakeMethod method = BakeMethod::trace; ///< ray tracing, or depth maps with OpenGL 4.5: on a hardware GPU
-                                           ///< for Backend::automatic, on any device for Backend::gpu; `bake`
-                                           ///< throws `Error` for Backend::cpu
-    int raster_resolution = 1024;          ///< texels along each side of a depth map, 16..16384; ignored by
-                                           ///< BakeMethod::trace
+    Backend backend = Backend::automatic; ///< hardware that traces rays or draws depth maps
+    /// Ray tracing or depth maps. Depth maps need OpenGL 4.5, on a hardware GPU for Backend::automatic or on
+    /// any device for Backend::gpu; with Backend::cpu `bake` throws `Error` for them.
+    BakeMethod method = BakeMethod::trace;
+    int raster_resolution = 1024; ///< texels along each side of a depth map, 16..16384; ignored by
+                                  ///< BakeMethod::trace
     /// GPU that traces rays with Backend::gpu: its index in gpu_devices(), or a part of its name, as in
     /// `named_device`; empty: the best device. Other backends and depth maps ignore this member.
     std::string gpu = {};
     /// Method by which a GPU traces rays. The CPU and depth maps ignore this member.
     Traversal traversal = Traversal::automatic;
-    /// Distance fall-off of occlusion; the default blocks all light at every distance. Depth maps ignore this
-    /// member, and `bake` throws `Error` for another fall-off with depth maps or with bounces.
+    /// Distance fall-off of occlusion; the default blocks all light at every distance. `bake` throws `Error`
+    /// for any other fall-off if the method is BakeMethod::raster or if light bounces.
     Falloff falloff = {};
 };
 

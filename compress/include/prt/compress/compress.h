@@ -27,8 +27,8 @@ inline constexpr int kMaxPackedWords = 8;
 inline constexpr int kMaxPackedBits = 32 * kMaxPackedWords - 16;
 
 /// Maximum magnitude of a transfer coefficient that can be compressed. Typical coefficients are below 1;
-/// those of nearly black thin sheets reach a few hundred. The sum of many squares below this limit fits into
-/// a float.
+/// those of nearly black thin sheets reach a few hundred. The sum of the squares of many such coefficients
+/// fits into a float.
 inline constexpr float kMaxInputTransfer = 1e12f;
 /// Maximum of CompressOptions::seam_weight.
 inline constexpr double kMaxSeamWeight = 1e6;

@@ -10,9 +10,9 @@
 //     relighter.update({sky.coefficients, suns.coefficients}, constants);
 //
 // Several models can share a lighting; each model needs its own ClusterLighting. If the renderer rotates a
-// model, rotate the lighting by the inverse: `ShRotation(order, inverse of the rotation).apply(light,
-// rotated)`. Constants are linear in the lighting: `blend_constants` blends those of two lightings faster
-// than `update` computes new ones. Stable.
+// model, rotate the lighting by the inverse: `ShRotation(order, inverse of the
+// rotation).apply(light.coefficients, rotated)`. Constants are linear in the lighting: `blend_constants`
+// blends those of two lightings faster than `update` computes new ones. Stable.
 
 #include "prt/core/clustered_transfer.h"
 #include "prt/core/glm_layout.h"
@@ -39,7 +39,8 @@ public:
     /// Returns the layout of the transfer vectors, reduced to one output (`TransferLayout::of_one_output`).
     const TransferLayout& layout() const { return layout_; }
     /// Returns the number of constants: the number of rows of all clusters (per cluster k one mean, the
-    /// predictor rows, m_k basis directions), times the number of outputs. Constants are in the order of
+    /// predictor rows, m_k basis directions), times the number of outputs (1 for exit radiance;
+    /// 4, 9 or 16 SH coefficients at probes). Constants are in the order of
     /// `ClusteredBases::rows`; the outputs of a row are consecutive.
     std::size_t rows() const { return rows_; }
 

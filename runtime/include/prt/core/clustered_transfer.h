@@ -4,8 +4,7 @@
 // per frame and per receiver.
 //
 // Each frame, or each time the lighting changes:
-//     relighter.update(light, constants);                       // M_k·L and B_kj·L:
-//     prt/core/cluster_lighting.h
+//     relighter.update(light, constants); // constants C; `ClusterLighting` of prt/core/cluster_lighting.h
 // Then per receiver, in a vertex shader (shaders/prt_exit_radiance.glsl) or on the CPU:
 //     R = C[first_k] + sum_i x_i C[first_k + 1 + i] + sum_j w_j C[first_k + 1 + g + j]
 // This is docs/math.md, eq. 29, with k the cluster of the receiver, m_k its number of basis directions,

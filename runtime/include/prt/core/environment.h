@@ -1,7 +1,7 @@
 #pragma once
 
-// Environment maps (images of distant radiance) in memory, and their projection into SH. docs/math.md,
-// section 3, defines the layouts. Stable.
+// Environment maps (images of distant radiance) in memory, and their projection into SH. docs/conventions.md,
+// "Environment maps", defines the layouts. Stable.
 
 #include "prt/core/glm_layout.h"
 #include "prt/core/light.h"
@@ -120,8 +120,9 @@ Image resampled_lat_long(const Environment& environment);
 /// Returns the SH coefficients of the environment in `order` bands, 1..kMaxOrder. Radiance is constant over
 /// each texel, and the basis is integrated over the texel: a lat-long image of one pixel is exactly a
 /// constant light. Uses `threads` threads (0: all hardware threads); the result does not depend on their
-/// number. Throws `Error` for an invalid order, and the errors of `check_environment` and of `check_light` (a
-/// coefficient is NaN or exceeds 1e18 in magnitude).
+/// number. Throws `Error` for an invalid order, and the errors of `check_environment`, and `Error` for an
+/// invalid order or if a coefficient is NaN or exceeds 1e18 in magnitude (a coefficient is NaN or exceeds
+/// 1e18 in magnitude).
 Light project(const Environment& environment, int order, int threads = 0);
 
 } // namespace prt

@@ -167,14 +167,17 @@ private:
 /// for example a `cone_light`. Throws `Error` for an order outside 1..kMaxOrder.
 Light sky_light(int order, const PreethamSky& sky);
 
-/// Multiplies each of the `coefficients` [order²] of degree m by (-1)^m, in place. This converts them from a
-/// basis with the Condon-Shortley phase, which prtkit uses, to a basis without it, or back.
+/// Multiplies each of the `coefficients` [order²], (l, m) at index l(l+1) + m, by (-1)^m, in place. This
+/// converts them from a basis with the Condon-Shortley phase, which prtkit uses, to a basis without it, or
+/// back.
 void flip_condon_shortley(int order, std::span<float> coefficients);
-/// Multiplies each of the `coefficients` [order²] of degree m by (-1)^m, in place. This converts them from a
-/// basis with the Condon-Shortley phase, which prtkit uses, to a basis without it, or back.
+/// Multiplies each of the `coefficients` [order²], (l, m) at index l(l+1) + m, by (-1)^m, in place. This
+/// converts them from a basis with the Condon-Shortley phase, which prtkit uses, to a basis without it, or
+/// back.
 void flip_condon_shortley(int order, std::span<double> coefficients);
-/// Multiplies each of the RGB `coefficients` [order²] of degree m by (-1)^m, in place. This converts them
-/// from a basis with the Condon-Shortley phase, which prtkit uses, to a basis without it, or back.
+/// Multiplies each of the RGB `coefficients` [order²], (l, m) at index l(l+1) + m, by (-1)^m, in place. This
+/// converts them from a basis with the Condon-Shortley phase, which prtkit uses, to a basis without it, or
+/// back.
 void flip_condon_shortley(int order, std::span<glm::vec3> coefficients);
 
 /// Returns the first three bands of `light` as the nine coefficients of three.js's `SphericalHarmonics3`, for

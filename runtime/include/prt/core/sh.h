@@ -1,10 +1,10 @@
 #pragma once
 
 // Spherical harmonics: basis values, the clamped-cosine lobe, windows, sums and products.
-// prt/core/sh_rotation.h has rotation. Conventions: docs/math.md, section 1. All functions are
-// thread-safe and allocate no memory unless they throw. Only `check_order` checks its argument; the other
-// functions require an order in 1..kMaxOrder, unit directions, and output spans that have at least the stated
-// length. Stable.
+// prt/core/sh_rotation.h has rotation. Conventions: docs/math.md, section 1. All functions are thread-safe.
+// They allocate memory only if they throw, and for tables in the first calls of `sh_product` and
+// `sh_product_matrix`. Only `check_order` checks its argument; the other functions require an order
+// in 1..kMaxOrder, unit directions, and output spans that have at least the stated length. Stable.
 
 #include "prt/core/glm_layout.h"
 #include "prt/core/sh_basis.h"

@@ -34,8 +34,8 @@ private:
     std::unique_ptr<GltfContents> contents_;
 };
 
-/// Representation in a document of meshes that several nodes draw with shared transfer (PRTKIT_instances of
-/// docs/format.md). Does not matter for files without PRTKIT_instances.
+/// How a document represents meshes whose instances share transfer (PRTKIT_instances of docs/format.md). No
+/// effect on other files.
 enum class Instancing {
     nodes, ///< each instance is a node, at its position in the world; `read_instanced`
            ///< (prt/gltf/transfer_gltf.h) reads shared transfer, `read_transfer` and `read_clustered` cannot
@@ -71,8 +71,8 @@ struct GltfOptions {
 /// or an external buffer cannot be read, is damaged or is too large, if the file requires an unsupported
 /// extension, or if it uses a file of GltfOptions::outputs. An image file that cannot be read does not throw
 /// here: it causes a line in Scene::notices, and an `Error` of `load_textures` if its pixels are needed.
-/// Replaces unusable normals and texture coordinates in the document, and removes a fallback
-/// (runtime/scene/gltf/vertex_fallback.h).
+/// Replaces unusable normals and texture coordinates in the document. If `prt compress --fallback` wrote
+/// vertex colors for other viewers, restores the original colors and materials (docs/format.md, "Fallback").
 GltfDocument load_gltf(const std::filesystem::path& path, const GltfOptions& options = {});
 
 /// Reads a .gltf or .glb file whose bytes `file` are in memory. `path`: path that the file has or would have,
@@ -82,22 +82,22 @@ GltfDocument parse_gltf(std::span<const std::byte> file, const std::filesystem::
                         const GltfOptions& options = {});
 
 /// Returns the default scene of the file (scene 0 if there is no default, all nodes if there are no scenes),
-/// flattened: all vertices are in the world, relative to Scene::origin. Every instance of a mesh gets
-/// separate vertices. Skins and morph targets are evaluated in the pose of the file. Hidden nodes, coarser
-/// levels of detail, points and lines are left out. Throws `Error`, with the path, if the nodes, meshes,
-/// skins, materials or lights are invalid, a position is not finite or exceeds kFarthestVertex, the scene has
-/// no triangles, or it exceeds GltfOptions::scene_limit.
+/// flattened: vertices have world axes, and positions relative to Scene::origin. Every instance of a mesh
+/// gets separate vertices. Skins and morph targets are evaluated in the pose of the file. Hidden nodes,
+/// coarser levels of detail, points and lines are left out. Throws `Error`, with the path, if the nodes,
+/// meshes, skins, materials or lights are invalid, a position is not finite or exceeds kFarthestVertex, the
+/// scene has no triangles, or it exceeds GltfOptions::scene_limit.
 Scene extract_scene(const GltfDocument& document);
 
 /// Writes raw transfer of vertices (PRTKIT_transfer) into `document`, from which `scene` was extracted.
-/// Replaces existing transfer of surfaces. Changes the meshes: a mesh that several nodes draw is copied for
-/// each node, and primitives without normals get flat normals. Call only one function that changes the meshes
-/// per document. Throws `Error` if the copies exceed the memory limit of docs/format.md.
+/// First removes what `discard_transfer` removes. Changes the meshes: a mesh that several nodes draw is
+/// copied for each node, and primitives without normals get flat normals. Per document, call at most one
+/// function that changes meshes. Throws `Error` if the copies exceed the memory limit of docs/format.md.
 void write_transfer(GltfDocument& document, const Scene& scene, const BakedTransfer& baked);
 
 /// Writes compressed transfer of vertices (PRTKIT_clustered_pca) into `document`, from which `scene` was
-/// extracted. Replaces existing transfer of surfaces, raw or compressed. Changes the meshes as
-/// `write_transfer` does; call only one function that changes the meshes per document. Throws the errors of
+/// extracted. First removes what `discard_transfer` removes. Changes the meshes as
+/// `write_transfer` does; per document, call at most one function that changes meshes. Throws the errors of
 /// `write_transfer`.
 void write_clustered(GltfDocument& document, const Scene& scene, const CompressedTransfer& compressed);
 
@@ -116,7 +116,7 @@ std::optional<CompressedTransfer> read_clustered(const GltfDocument& document, c
 /// Writes vertex colors (attribute COLOR_0, three float32 numbers, linear) into `document`, from which
 /// `scene` was extracted. Every glTF viewer shows the colors, multiplied by the base color. `colors`:
 /// [receivers of `scene`]. Replaces existing vertex colors and their alpha. Changes the meshes as
-/// `write_transfer` does; call only one function that changes the meshes per document. To write more, save
+/// `write_transfer` does; per document, call at most one function that changes meshes. To write more, save
 /// the document and read the file again. Throws the errors of `write_transfer`.
 void write_vertex_colors(GltfDocument& document, const Scene& scene, std::span<const glm::vec3> colors);
 
@@ -154,7 +154,7 @@ struct SurfaceTexture {
 /// different textures, or without one, share a material, each texture gets a copy of the material, also in
 /// KHR_materials_variants. Primitives without a material get a new one. Replaces existing occlusionTextures
 /// and returns the number of materials, with their copies, that had one. Changes the meshes as
-/// `write_transfer` does; call only one function that changes the meshes per document. Throws the errors of
+/// `write_transfer` does; per document, call at most one function that changes meshes. Throws the errors of
 /// `write_transfer`, and `Error` if bent normals are written and `extras` or extras.prtkit of a material is
 /// not an object.
 std::size_t write_surface_textures(GltfDocument& document, const Scene& scene,
@@ -168,8 +168,8 @@ void discard_transfer(GltfDocument& document);
 /// Compression of vertex and index data in a .glb file.
 enum class BufferCompression {
     none,   ///< any glTF reader can read the file
-    meshopt ///< EXT_meshopt_compression, lossless; readers must support it. For packed weights, a code that
-            ///< only prtkit reads is used if the file becomes smaller
+    meshopt ///< EXT_meshopt_compression, lossless; readers must support it. Packed weights
+            ///< are stored in a code of prtkit (docs/format.md) instead if the file becomes smaller
 };
 
 /// Writes `document` to the .glb file `path`, with all buffers and all images that could be read embedded.

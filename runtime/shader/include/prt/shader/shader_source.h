@@ -116,10 +116,10 @@ std::string volume_shader(const CompressedVolume& volume, ShaderLanguage languag
 std::string lobe_defines(const LobeModel& model, int light_order = 0);
 
 /// Returns the GLSL functions of lobes (shaders/prt_lobes.glsl), the same for every language. Insert them
-/// after the version line of a shader, in ES after `precision highp float`. `behind`: source to put before
-/// the functions. If `behind` is empty, the incident light has the order of the model. Otherwise `behind`
-/// must be the result of `volume_functions`, and the incident light has the order of that volume. Throws the
-/// errors of `check_lobes`.
+/// after the version line of a shader, in ES after `precision highp float`. `behind`: source that is put
+/// before the functions. If `behind` is empty, the incident light has the order of the model. Otherwise
+/// `behind` must be the result of `volume_functions`, and the incident light has the order of that volume.
+/// Throws the errors of `check_lobes`.
 std::string lobe_functions(const LobeModel& model, const std::string& behind = {});
 
 /// Returns the content of the uniform block PrtLobeProfiles: [kMaxProfiles] the gains of bands 0 to 3 of each
