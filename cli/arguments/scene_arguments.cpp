@@ -50,7 +50,7 @@ void add_back_sides(CLI::App* command, BackSides& sides, const std::string& deta
 
 void add_levels(CLI::App* command, LevelMode& mode) {
     choice(command, "--levels", mode, kLevelModes,
-           "transfer of coarser levels of detail: from level 0, of its own bake, or none\n"
+           "transfer of coarser levels of detail: from level 0, from a separate bake, or none\n"
            "levels: nodes of MSFT_lod, or nodes with names as ROCK_LOD1\n"
            "--texels: coarser levels get no lightmap; --instances shared: only ignore",
            "carry");

@@ -213,7 +213,7 @@ void add_method(CLI::App* command, BakeOptions& options) {
            "on");
     add_device(command, options.tracer);
     add_fit(command, options.fit,
-            "where light is measured: at the vertices, or at points between them\n"
+            "positions where light is measured: the vertices, or points between them\n"
             "not with --texels; always surface with --refine\n"
             "always vertex with --target-error, --method raster and --instances shared");
     Suboptions("--method", names_of(kBakeMethods), "method that finds which directions are blocked",

@@ -29,7 +29,7 @@ PARTS = {
     "tracers": ("bake/tracers", "runtime scene bake device trace_gpu raster", "glm fmt"),
     "compress": ("compress", "runtime scene", "glm Eigen"),
     "compress_study": ("compress/study", "runtime scene compress", "glm Eigen"),
-    "shaders": ("shaders", "", ""),
+    "shaders": ("shaders", "", "glm"),
     "report": ("cli/report", "runtime scene bake compress compress_study", "glm fmt nlohmann"),
     "pipeline": ("cli/pipeline", "runtime shader fit image scene render gl bake tracers compress compress_study report",
                  "glm fmt nlohmann"),

@@ -22,10 +22,10 @@ namespace prt {
 void check_order(int order);
 
 /// Writes the value of each of the order² basis functions in unit direction `direction` to `basis` [order²],
-/// at index l(l+1) + m for band l and degree m. Computes in float.
+/// at index l(l+1) + m for Y_lm, -l <= m <= l. Computes in float.
 void evaluate_sh(int order, const glm::vec3& direction, std::span<float> basis);
 /// Writes the value of each of the order² basis functions in unit direction `direction` to `basis` [order²],
-/// at index l(l+1) + m for band l and degree m. Computes in double.
+/// at index l(l+1) + m for Y_lm, -l <= m <= l. Computes in double.
 void evaluate_sh(int order, const glm::dvec3& direction, std::span<double> basis);
 
 /// Writes the basis values in each of the unit directions `directions` to `basis`
