@@ -65,28 +65,32 @@ void put_in_order_of(const Scene& scene, SceneFile& baked) {
 }
 
 SceneFile load_scene_file(const Path& path, const ReadingOptions& options) {
-    return scene_file_of(load_gltf(path, options), path, options.notify);
+    return scene_file_of(load_gltf(path, options), path, options.notify, options.shared);
 }
 
-SceneFile scene_file_of(GltfDocument document, const Path& path, const Notify& notify) {
+SceneFile scene_file_of(GltfDocument document, const Path& path, const Notify& notify,
+                        SharedTransfer shared) {
     Scene scene = extract_scene(document);
     std::optional<BakedTransfer> baked;
     std::optional<CompressedTransfer> compressed;
     std::optional<InstancedModel> instanced;
     if (shares_instances(document)) {
         instanced = read_instanced(document, scene, path);
+    }
+    if (instanced && shared == SharedTransfer::expand) {
         baked = instanced->baked
                     ? std::exchange(instanced->baked, {})
                     : BakedTransfer{decode(instanced->compressed->transfer), instanced->compressed->record};
         baked->transfer = expanded(document, scene, instanced->stored, baked->transfer);
-    } else {
+    } else if (!instanced) {
         baked = read_transfer(document, scene);
         compressed = read_clustered(document, scene);
     }
     std::optional<LightmapOfFile> lightmap;
     if (std::optional<BakedLightmap> raw = read_lightmap(document, scene)) {
         std::vector<Edge> edges = lightmap_edges(raw->layout, raw->texels, raw->seams);
-        lightmap = {std::move(raw->layout), std::move(raw->texels), std::move(raw->areas), std::move(edges)};
+        lightmap = {std::move(raw->layout), std::move(raw->texels), std::move(raw->areas),
+                    std::move(raw->seams), std::move(edges)};
         baked = std::move(raw->baked);
     } else if (std::optional<CompressedLightmap> shipped =
                    about(path, [&] { return read_compressed_lightmap(document, scene); })) {
@@ -108,6 +112,12 @@ SceneFile scene_file_of(GltfDocument document, const Path& path, const Notify& n
     if (has_levels(file.document))
         extract_levels(file.document);
     return file;
+}
+
+BakedLightmap take_baked_lightmap(SceneFile& model) {
+    LightmapOfFile& lightmap = *model.lightmap;
+    return {std::move(lightmap.layout), std::move(lightmap.texels), std::move(lightmap.areas),
+            std::move(lightmap.seams), std::move(*model.baked)};
 }
 
 ModelToPassOn load_to_pass_on(const Path& path, const ReadingOptions& options) {

@@ -31,7 +31,8 @@ struct LightmapOfFile {
     /// Receivers of a bake; a compressed file has transfer of all texels.
     std::vector<std::uint32_t> texels = {};
     std::vector<float> areas = {};
-    std::vector<Edge> edges = {};
+    std::vector<Edge> seams = {}; ///< pairs of texels that meet at UV seams
+    std::vector<Edge> edges = {}; ///< including those across seams
 };
 
 /// A glTF file with all transfer that it contains.
@@ -47,7 +48,8 @@ struct SceneFile {
     std::optional<CompressedVolume> compressed_volume = {};
     std::vector<NodeOccluder> occluders = {};
     std::optional<StoredLobes> lobes = {};
-    /// Set if instances share transfer: `baked` is then expanded to all vertices.
+    /// Set if instances share transfer: with SharedTransfer::expand, `baked` then contains it for all
+    /// vertices.
     std::optional<InstancedModel> instanced = {};
 
     /// Returns the order of the transfer, 0 without transfer.
@@ -61,7 +63,10 @@ const TransferLayout& layout_of(const SceneFile& model);
 /// prtkit in the file are damaged.
 SceneFile load_scene_file(const Path& path, const ReadingOptions& options = {});
 /// Returns the model of a document that was read from `path`.
-SceneFile scene_file_of(GltfDocument document, const Path& path, const Notify& notify = {});
+SceneFile scene_file_of(GltfDocument document, const Path& path, const Notify& notify = {},
+                        SharedTransfer shared = SharedTransfer::expand);
+/// Returns the lightmap of a model that has one with raw transfer, and moves its data.
+BakedLightmap take_baked_lightmap(SceneFile& model);
 
 /// A model that a command writes again with additions.
 struct ModelToPassOn {

@@ -8,7 +8,11 @@
 
 namespace prt::pipeline {
 
+/// Transfer that instances share: `Model::baked` contains it for all vertices, or only `instanced` has it.
+enum class SharedTransfer { expand, keep };
+
 struct ReadingOptions : GltfOptions {
+    SharedTransfer shared = SharedTransfer::expand;
     BadTextures bad_textures = BadTextures::error;
     Notify notify = {}; ///< receives notices about the model
 };

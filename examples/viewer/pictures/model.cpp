@@ -2,9 +2,9 @@
 
 #include "pictures/model.h"
 
+#include "cli/pipeline/model.h"
 #include "prt/bake/bake.h"
 #include "prt/core/error.h"
-#include "prt/render/lightmap_file.h"
 #include "runtime/scene/mesh_edges.h"
 
 #include <glm/geometric.hpp>
@@ -41,31 +41,15 @@ std::uint64_t surface_id(const prt::Scene& scene) {
     return sum;
 }
 
-/// Reads a compressed lightmap and adds the file name to its errors.
-std::optional<prt::CompressedLightmap> read_compressed(const prt::GltfDocument& document,
-                                                       const prt::Scene& scene,
-                                                       const std::filesystem::path& path) {
-    try {
-        return prt::read_compressed_lightmap(document, scene);
-    } catch (const prt::Error& error) {
-        const std::string what = error.what(), name = path.string() + ": ";
-        throw prt::Error(what.starts_with(name) ? what : name + what);
-    }
-}
-
-/// Loads an instanced model: compressed transfer as it is stored, raw transfer expanded to all vertices.
-LoadedModel load_instanced(const prt::GltfDocument& document, prt::Scene scene,
-                           const std::filesystem::path& path) {
-    prt::InstancedModel instanced = prt::read_instanced(document, scene, path);
-    LoadedModel loaded;
+/// Takes the transfer of instances: compressed transfer as it is stored, raw transfer for all vertices.
+void take_instances(prt::pipeline::SceneFile& file, LoadedModel& loaded) {
+    prt::InstancedModel& instanced = *file.instanced;
     loaded.record = instanced.baked ? instanced.baked->record : instanced.compressed->record;
     if (instanced.baked)
         loaded.raw = std::make_shared<const prt::Transfer>(
-            prt::expanded(document, scene, instanced.stored, instanced.baked->transfer));
+            prt::expanded(file.document, file.scene, instanced.stored, instanced.baked->transfer));
     else
         loaded.instanced = std::make_shared<const prt::InstancedModel>(std::move(instanced));
-    loaded.model = make_model(std::move(scene), path);
-    return loaded;
 }
 
 } // namespace
@@ -102,24 +86,27 @@ void LoadedModel::set(std::shared_ptr<const prt::CompressedLightmap> of_all_texe
 }
 
 LoadedModel load_model(const std::filesystem::path& path) {
-    const prt::GltfDocument document = prt::load_gltf(path);
-    prt::Scene scene = prt::extract_scene(document);
+    prt::pipeline::ReadingOptions reading;
+    reading.shared = prt::pipeline::SharedTransfer::keep;
+    prt::pipeline::SceneFile file = prt::pipeline::load_scene_file(path, reading);
     LoadedModel loaded;
-    if (prt::shares_instances(document))
-        return load_instanced(document, std::move(scene), path);
-    if (auto baked = prt::read_transfer(document, scene)) {
-        loaded.raw = std::make_shared<const prt::Transfer>(std::move(baked->transfer));
-        loaded.record = baked->record;
+    if (file.instanced) {
+        take_instances(file, loaded);
+    } else if (file.lightmap && file.baked) {
+        loaded.set(std::make_shared<const prt::BakedLightmap>(take_baked_lightmap(file)));
+    } else if (file.lightmap) {
+        loaded.set(std::make_shared<const prt::CompressedLightmap>(
+            prt::CompressedLightmap{std::move(file.lightmap->layout), std::move(*file.compressed)}));
+    } else {
+        if (const prt::BakeRecord* record = file.record())
+            loaded.record = *record;
+        if (file.baked)
+            loaded.raw = std::make_shared<const prt::Transfer>(std::move(file.baked->transfer));
+        if (file.compressed)
+            loaded.compressed =
+                std::make_shared<const prt::ClusteredTransfer>(std::move(file.compressed->transfer));
     }
-    if (auto compressed = prt::read_clustered(document, scene)) {
-        loaded.compressed = std::make_shared<const prt::ClusteredTransfer>(std::move(compressed->transfer));
-        loaded.record = compressed->record;
-    }
-    if (auto baked = prt::read_lightmap(document, scene))
-        loaded.set(std::make_shared<const prt::BakedLightmap>(std::move(*baked)));
-    if (auto compressed = read_compressed(document, scene, path))
-        loaded.set(std::make_shared<const prt::CompressedLightmap>(std::move(*compressed)));
-    loaded.model = make_model(std::move(scene), path);
+    loaded.model = make_model(std::move(file.scene), path);
     return loaded;
 }
 
