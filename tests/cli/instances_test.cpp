@@ -304,8 +304,11 @@ TEST_F(SharedInstances, UnsupportedMeshesAreRejected) {
     EXPECT_EQ(bake("boxes.glb", "auto.glb", "auto").status, 0);
     boxes({0, 0, 0, 3, 0, 0}).write(folder / "two.glb");
     for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{
-             {"--texels", "4/m"}, {"--volume", "1"}, {"--refine", "0.1"}, {"--subsurface", "marble"}})
+             {"--volume", "1"}, {"--refine", "0.1"}, {"--subsurface", "marble"}})
         EXPECT_EQ(bake("two.glb", "shared.glb", "shared", options).status, 1) << options[0];
+    EXPECT_EQ(prt({"bake", at("two.glb"), "-o", at("shared.glb"), "--instances", "shared", "--texels", "4/m"})
+                  .status,
+              1);
     EXPECT_FALSE(std::filesystem::exists(folder / "shared.glb"));
     ASSERT_EQ(bake("two.glb", "shared.glb", "shared", {"--bounces", "1"}).status, 0);
     const Outcome fallback =
