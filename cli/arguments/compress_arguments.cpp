@@ -186,9 +186,13 @@ void add_options(CLI::App* command, CompressArguments& a) {
     command->add_flag("--reorder", a.writing.reorder,
                       "store the vertices of a cluster together; default: order of the bake\n"
                       "not for lightmaps");
-    command->add_flag("--meshopt", a.writing.meshopt,
-                      "compress the file with EXT_meshopt_compression; default: off\n"
-                      "also entropy-codes the weights; the bytes in GPU memory remain the same");
+    command->add_flag(
+        "--meshopt", a.writing.meshopt,
+        "compress the file with EXT_meshopt_compression; default: off\n"
+        "lossless, for vertices and triangles; programs that read the file need this extension\n"
+        "not for images, and not for the weights of lightmaps and volumes\n"
+        "also entropy-codes the weights of vertices if this is smaller, not with --bits float\n"
+        "the bytes in GPU memory remain the same");
     add_seed(command, a.options.compress.seed);
     add_reading(command, a.reading);
     add_threads(command, a.options.compress.threads);

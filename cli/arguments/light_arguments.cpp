@@ -17,7 +17,7 @@ constexpr Choice<Window> kWindows[] = {
     {"none", Window::none, "no filter"},
     {"hann", Window::hann, "Hann window: strong filter; also blurs light"},
     {"lanczos", Window::lanczos, "Lanczos window: weaker filter than hann"},
-    {"auto", Window::automatic, "the weakest filter for which no radiance is negative"}};
+    {"auto", Window::automatic, "the weakest filter for which no radiance of the sky is negative"}};
 
 /// Layout and center of an environment map.
 struct MapLayout {
@@ -27,19 +27,19 @@ struct MapLayout {
 constexpr Choice<MapLayout> kLayouts[] = {
     {"lat-long",
      {EnvironmentLayout::lat_long},
-     "2:1, latitude and longitude; the center of the image shows direction +z (OpenEXR)"},
+     "latitude and longitude, usually 2:1; the center of the image shows +z (OpenEXR)"},
     {"lat-long-x",
      {EnvironmentLayout::lat_long, LatLongCenter::x},
      "the same, but the center shows +x (three.js, glTF viewers, Blender)"},
     {"cube",
      {EnvironmentLayout::cube},
-     "six faces in a column; edge texels are centered on the edges of the cube (OpenEXR)"},
+     "faces +x -x +y -y +z -z in a column; edge texels are centered on cube edges (OpenEXR)"},
     {"cube-faces",
      {EnvironmentLayout::cube_faces},
-     "six faces in a column, a row or a cross; no texel is shared by faces (OpenGL, Direct3D)"},
+     "these faces in a column, row or cross; faces share no texels (OpenGL, Direct3D)"},
     {"angular",
      {EnvironmentLayout::angular},
-     "light probe (Debevec): all directions in a circle; the center shows -z"}};
+     "1:1, light probe (Debevec): all directions in a circle; the center shows -z"}};
 constexpr Choice<BadPixels> kBadPixels[] = {
     {"error", BadPixels::error, "stop with an error"},
     {"zero", BadPixels::zero, "replace the pixel by black"},
@@ -81,7 +81,8 @@ void add_light_options(CLI::App* command, LightOptions& options) {
     const auto window = std::ranges::find(kWindows, options.window, &Choice<Window>::value);
     choice(command, "--window", options.window, kWindows,
            "filter on the SH bands of the sky against ringing\n"
-           "needs a light from a file; separate suns are not filtered",
+           "needs a light from a file; separate suns are not filtered\n"
+           "backgrounds and path tracing use images without the filter",
            window->name);
     command
         ->add_option("--rotate", options.rotation_degrees,
@@ -97,10 +98,13 @@ void add_light_options(CLI::App* command, LightOptions& options) {
                 options.environment.layout = layout.layout;
                 options.environment.center = layout.center;
             },
-            "arrangement of directions in the image\n"
+            "arrangement of directions in the environment image\n"
             "default: the attribute of an OpenEXR file; else by width:height, 2:1: lat-long, 1:6: cube,\n"
-            "  cross, row, or six files sky_{face}.hdr with px, nx, py, ny, pz, nz: cube-faces\n"
-            "  other images need this option; light files ignore it" +
+            "  6:1 (row), and 4:3 or 3:4 (cross) with one color outside the faces: cube-faces\n"
+            "  other images need this option\n"
+            "six files: the name sky_{face}.hdr reads sky_px.hdr, sky_nx.hdr, and py, ny, pz, nz\n"
+            "  default: cube-faces\n"
+            "needs a light from a file; no effect on light files (.json)" +
                 explained(kLayouts))
         ->type_name("LAYOUT")
         ->default_str("by the file");
@@ -158,7 +162,7 @@ void add_lamp_scale(CLI::App* command, double& scale, const std::string& details
     command
         ->add_option("--lamp-scale", scale,
                      "factor on the intensity of point, spot and directional lights\n"
-                     "X: 1 for lights in watts, 0.00146 (1/683) for lights in candela and lux\n"
+                     "X above 0: 1 for lights in watts, 0.00146 (1/683) for lights in candela and lux\n"
                      "Blender, for example, exports candela and lux\n"
                      "emissive materials are not scaled" +
                          details)

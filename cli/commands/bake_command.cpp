@@ -213,9 +213,11 @@ void add_method(CLI::App* command, BakeOptions& options) {
            "on");
     add_device(command, options.tracer);
     add_fit(command, options.fit,
-            "positions where light is measured: the vertices, or points between them\n"
-            "not with --texels; always surface with --refine\n"
-            "always vertex with --target-error, --method raster and --instances shared");
+            "measure light at the vertices, or at points between them\n"
+            "not with --texels\n"
+            "with --refine: auto acts as surface; vertex is an error\n"
+            "with --target-error, --method raster, --instances shared: auto acts as vertex; surface is an\n"
+            "  error; with --instances auto, surface bakes each instance as own");
     Suboptions("--method", names_of(kBakeMethods), "method that finds which directions are blocked",
                [&options](const std::string& name) {
                    options.tracer.method = chosen("--method", kBakeMethods, name);
@@ -480,7 +482,10 @@ void add_bake(CLI::App& app, Session& session) {
                                            [&session](const BakeArguments& given) { run(given, session); });
     command->add_option("scene", a.scene, "scene to bake: glTF 2.0, .gltf or .glb")->required()->check(named);
     add_output(command, a.output, "write the scene with its transfer to this file, .glb");
-    command->add_option("--order", a.options.order, "SH order N of the transfer, 1 to 10: N² coefficients")
+    command
+        ->add_option("--order", a.options.order,
+                     "SH order N of the transfer, 1 to 10: N² coefficients\n"
+                     "N bands, l = 0 to N - 1; a larger N has sharper shadows and needs more time and bytes")
         ->capture_default_str()
         ->check(CLI::Range(1, kMaxOrder));
     CLI::Option* rays = command

@@ -132,7 +132,9 @@ void add_bench(CLI::App& app, Session& session) {
     command
         ->add_option("--seconds", a.options.max_seconds,
                      "skip runs that would take longer than X seconds\n"
-                     "the first run of each method is never skipped")
+                     "0 to 1e9; the time is estimated from the run before, with fewer rays\n"
+                     "the first run of each method on each device is never skipped\n"
+                     "the time of the reference and the total time are not limited")
         ->capture_default_str()
         ->check(real_in(0, 1e9));
     add_seed(command, a.options.seed);

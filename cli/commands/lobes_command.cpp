@@ -182,7 +182,8 @@ void add_quality(CLI::App* command, LobesArguments& a) {
         ->check(CLI::Range(2, kMaxLobeOrder));
     Suboptions("--poses", "N",
                "number of animation poses, in addition to the pose of the file\n"
-               "lobes are fitted to the mean transfer of all poses; 1 to 4096",
+               "N: 1 to 4096 in total, at equal intervals in the time of all animations\n"
+               "lobes are fitted to the mean transfer of all poses; a model without animation is an error",
                [&a](const std::string& text) {
                    const std::optional<int> poses = whole_number(text);
                    if (!poses || *poses < 1 || *poses > 4096)
@@ -190,13 +191,17 @@ void add_quality(CLI::App* command, LobesArguments& a) {
                    a.poses = *poses;
                })
         .whole_number("frames", 0, 4096,
-                      "number of frames at which the error is measured; 0: no measurement [6]",
+                      "number of frames in total at which the error is measured [6]\n"
+                      "  0 to 4096; 0: no measurement",
                       [&a](int frames) { a.frames = frames; })
-        .key("animation", "NAME", "name of the animation that contains poses and frames [all animations]",
+        .key("animation", "NAME", "take poses and frames from this animation only [all animations]",
              [&a](const std::string& name) { a.animation = name; })
         .add(command)
         ->default_str("8");
-    command->add_option("--rays", a.bake.rays, "number of rays per vertex and pose, 1 to 2^24")
+    command
+        ->add_option("--rays", a.bake.rays,
+                     "number of rays per vertex and pose, 1 to 2^24\n"
+                     "also for each frame at which the error is measured")
         ->capture_default_str()
         ->check(CLI::Range(1, kMaxRays));
     command

@@ -62,7 +62,8 @@ void add_make(CLI::App& app, Session& session) {
     add_output(command, r.output, "write the compressed model to this file, .glb");
     add_lights(command, r.lights,
                "light in which the model will be used\n"
-               "its suns are separate, up to 4 of an image, because renderers have shadow maps for them")
+               "up to 4 suns of an image and all suns of a light file are separate: renderers add their\n"
+               "  direct light with shadow maps; --max-error includes only their light after bounces")
         ->required();
     CLI::Option* error = command->add_option("--max-error", r.goal.max_error, kMaxErrorText)
                              ->check(above_zero())
@@ -71,6 +72,9 @@ void add_make(CLI::App& app, Session& session) {
         ->add_option("--bytes-per-vertex", r.goal.bytes_per_vertex,
                      "find the minimum error with at most X bytes per vertex, with bases\n"
                      "X: the bytes of its 32-bit words, plus the bytes of all bases / number of vertices\n"
+                     "  vertices: those of the written model, to which prt make can add some\n"
+                     "if no result has at most X bytes, an error\n"
+                     "order, bounces, rays and added vertices are chosen as for --max-error 0.01\n"
                      "replaces the goal --max-error and cannot be combined with it")
         ->check(above_zero())
         ->excludes(error);

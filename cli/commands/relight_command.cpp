@@ -213,7 +213,7 @@ void add_relight(CLI::App& app, Session& session) {
     });
     command
         ->add_option("model", a.model,
-                     "model to light: output of prt bake or prt compress, without lightmaps")
+                     "model to light: output of prt bake, compress or make, without lightmaps")
         ->required()
         ->check(named);
     add_light(command, a.environment);

@@ -101,8 +101,10 @@ constexpr Choice<Backend> kDevices[] = {
 constexpr int kUnshadowedOrder = 6;
 
 constexpr const char* kScaledGroups =
-    ", except in a group of prt bake that contains lights\n"
-    "prt bake --lamp-scale changed the baked light already: the factors multiply";
+    ", except in a lamp that also contains lights:\n"
+    "  a group of prt bake, or a material with the name of a light\n"
+    "prt bake --lamp-scale changed the baked light already: the factors multiply\n"
+    "model without transfer: only with --path-trace; else its lamps light nothing";
 
 /// The context to draw with; null: draw on the CPU.
 std::unique_ptr<GlContext> choose_backend(Backend backend, bool shadows_on_cpu) {
@@ -603,11 +605,15 @@ void add_render(CLI::App& app, Session& session) {
         ->type_name("FILE")
         ->check(named);
     command
-        ->add_option("--path-trace", a.look.paths,
-                     "path trace the scene with N paths per pixel; ignores transfer\n"
-                     "traces all bounces; N: 2 to 1048576; default: the model is lit by its transfer\n"
-                     "only with --show lit or error; error: the path-traced picture is the reference\n"
-                     "--suns, --window and --samples have no effect on the path-traced picture")
+        ->add_option(
+            "--path-trace", a.look.paths,
+            "path trace the scene with N paths per pixel; ignores transfer\n"
+            "N: 2 to 1048576, an odd N is rounded up; default: the model is lit by its transfer\n"
+            "traces all bounces; lamps: those of the bake; model without transfer: all lamps\n"
+            "materials with subsurface scattering are opaque\n"
+            "only with --show lit, or with --show error without --baked: as the reference of the error\n"
+            "--suns, --window and --samples have no effect on the path-traced light\n"
+            "--exposure auto is measured from the transfer if the model has transfer")
         ->type_name("N")
         ->check(CLI::Range(2, 1 << 20));
     add_exposure(command, a.look.exposure);

@@ -210,7 +210,9 @@ void add_shader(CLI::App& app, Session& session) {
         ->add_option("model", a.model, "model to relight: prt compress output; --stage lobes: of prt lobes")
         ->required()
         ->check(named);
-    add_output(command, a.output, "write the GLSL source to this file");
+    add_output(command, a.output,
+               "write the GLSL source to this file\n"
+               "text, with any suffix, as .vert; suffixes of other formats, as .glb or .json, are an error");
     choice(command, "--language", a.language, kLanguages, "shading language of the written source",
            "glsl450");
     choice(command, "--constants", a.constants, kConstants,
