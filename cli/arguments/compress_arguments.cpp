@@ -114,10 +114,12 @@ void add_goals(CLI::App* command, SearchOptions& o) {
         ->add_option(
             "--max-error", o.budget.max_error,
             "find the fewest bytes per vertex with at most this relative L2 error\n"
-            "error of the lit surface, as 0.01: for each sky of --lights at every rotation about +Y\n"
-            "  with its suns in the sky and separate; natural and plain: on average over the light\n"
+            "X: error of the lit surface, above 0; 0.01: 1 %; not of the probes of a volume\n"
+            "  for each sky of --lights at every rotation about +Y, with its suns in the sky and,\n"
+            "  without --combine-direct, separate; natural and plain: on average over the light\n"
             "X also limits the contrast error, which is relative to the local brightness:\n"
             "  a root mean square over all skies, and one over all lamps with one lamp lit at a time\n"
+            "as the only goal it also sets --max-jump 0.05; an error if no result meets the goals\n"
             "default: no limit")
         ->check(above_zero());
     command
@@ -156,9 +158,12 @@ void add_options(CLI::App* command, CompressArguments& a) {
                       "goals: --max-error, --bytes-per-vertex, --shader-ops, --max-jump; else no effect");
     add_metric(command, a.metric);
     command
-        ->add_option("--seam-weight", a.options.compress.seam_weight,
-                     "weight of error jumps along mesh edges; 0: jumps are ignored\n"
-                     "0 to 1000000, relative to the weight of the error; larger: fainter borders of clusters")
+        ->add_option(
+            "--seam-weight", a.options.compress.seam_weight,
+            "weight of error jumps along mesh edges; 0: jumps are ignored\n"
+            "0 to 1000000, relative to the weight of the error; larger: fainter borders of clusters\n"
+            "lightmaps: jumps between adjacent texels and across UV seams\n"
+            "no effect on the probes of a volume")
         ->capture_default_str()
         ->check(real_in(0, kMaxSeamWeight));
     command->add_flag("--combine-direct", a.writing.whole,
@@ -185,7 +190,7 @@ void add_options(CLI::App* command, CompressArguments& a) {
         .add(command);
     command->add_flag("--reorder", a.writing.reorder,
                       "store the vertices of a cluster together; default: order of the bake\n"
-                      "not for lightmaps");
+                      "changes the order inside each mesh, not the picture; not for lightmaps");
     command->add_flag(
         "--meshopt", a.writing.meshopt,
         "compress the file with EXT_meshopt_compression; default: off\n"

@@ -87,7 +87,8 @@ void add_light_options(CLI::App* command, LightOptions& options) {
     command
         ->add_option("--rotate", options.rotation_degrees,
                      "rotate the sky and its suns about +Y by X degrees\n"
-                     "counter-clockwise, seen from above; needs a light from a file")
+                     "X above 0: counter-clockwise, seen from above; -1000000 to 1000000\n"
+                     "needs a light from a file: image or light file")
         ->capture_default_str()
         ->check(real_in(-1e6, 1e6));
     command

@@ -104,12 +104,16 @@ void add_reading(CLI::App* command, ReadingOptions& reading, double* limit) {
                 if (limit)
                     *limit = static_cast<double>(bytes);
             },
-            limit
-                ? "limit of memory for scene and bake, as 8GB\n"
-                  "the program stops if more is needed; 1 GB: 10^9 bytes, 1 GiB: 2^30 bytes; no unit: bytes\n"
-                  "default for the scene: 256 MB + 64 times the size of its files"
-                : "limit of memory for the scene, as 8GB\n"
-                  "the program stops if more is needed; 1 GB: 10^9 bytes, 1 GiB: 2^30 bytes; no unit: bytes")
+            limit ? "limit of memory for scene and bake, as 8GB\n"
+                    "the program stops if more is needed\n"
+                    "SIZE: a whole number above 0; 1 GB: 10^9 bytes, 1 GiB: 2^30 bytes; no unit: bytes\n"
+                    "scene: geometry with all instances and morph targets, without textures\n"
+                    "default for the scene: 256 MB + 64 times the size of the .gltf or .glb and its buffers"
+                  : "limit of memory for the scene, as 8GB\n"
+                    "the program stops if more is needed\n"
+                    "SIZE: a whole number above 0; 1 GB: 10^9 bytes, 1 GiB: 2^30 bytes; no unit: bytes\n"
+                    "scene: geometry with all instances and morph targets, without textures and transfer\n"
+                    "file size: of the .gltf or .glb and its buffers")
         ->transform(CLI::AsSizeValue(true))
         ->type_name("SIZE")
         ->default_str(limit ? "the machine's memory" : "256MB + 64 x file size");

@@ -12,8 +12,8 @@ namespace {
 
 constexpr Choice<BackSides> kBackSides[] = {
     {"auto", BackSides::automatic,
-     "add vertices, so that each side has its own light, if light reaches both sides\n"
-     "  light of the sky below the horizon does not count"},
+     "add vertices for back sides that light reaches, so that each side has its own light\n"
+     "  light of the sky from below the horizon does not count"},
     {"shared", BackSides::shared, "back sides show the light of the front sides"}};
 constexpr Choice<LevelMode> kLevelModes[] = {
     {"carry", LevelMode::carry, "fit the light of level 0 to the surface of the coarser level"},
@@ -44,7 +44,8 @@ void add_no_shadow(CLI::App* command, std::vector<std::string>& materials, const
 void add_back_sides(CLI::App* command, BackSides& sides, const std::string& details) {
     choice(command, "--back-sides", sides, kBackSides,
            "light of the back sides of double-sided materials" + details +
-               "\nalways shared for blended, transmitting and subsurface materials",
+               "\nalways shared for blended, transmitting and subsurface materials, and for surfaces\n"
+               "  with a single-sided material variant (KHR_materials_variants)",
            "auto");
 }
 

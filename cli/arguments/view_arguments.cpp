@@ -64,7 +64,10 @@ void add_view(CLI::App* command, View& view) {
             "width and height of the picture in pixels, 1 to 16384 each")
         ->type_name("WxH")
         ->default_str("1280x720");
-    vector_option(command, "--camera", view.camera, "position of the camera, metres",
+    vector_option(command, "--camera", view.camera,
+                  "position of the camera in the scene, metres\n"
+                  "+Y is up; the camera must not look straight up or down\n"
+                  "default: chosen for --fov and --size, with the default of --look-at",
                   "whole scene is visible");
     vector_option(command, "--look-at", view.look_at, "point that the camera looks at, metres",
                   "center of the scene");

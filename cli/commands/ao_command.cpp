@@ -277,7 +277,7 @@ void add_outputs(CLI::App* command, AoArguments& a) {
         ->add_option("--attribute", a.attribute,
                      "vertex attribute to write: COLOR_0 or a name with leading _\n"
                      "value: fraction of uniform light that arrives, 0 to 1\n"
-                     "default: COLOR_0, whose existing colors are multiplied by this value\n"
+                     "COLOR_0: its existing colors are multiplied by the value; other names: replaced\n"
                      "not with --texels and --occluders; _BENT_NORMAL: not with --bent-normals")
         ->default_str("COLOR_0")
         ->excludes(texels);
@@ -334,9 +334,11 @@ void add_ao(CLI::App& app, Session& session) {
     add_outputs(command, a);
     add_falloff(command, a.options.tracer.falloff);
     command
-        ->add_option("--rays", a.rays,
-                     "number of rays per vertex, texel or point\n"
-                     "1 to 2^24; point: of an occlusion volume of --occluders")
+        ->add_option(
+            "--rays", a.rays,
+            "number of rays per vertex, texel or point\n"
+            "1 to 2^24; texel: a quarter of N from each of 4 points, fewer points at borders of charts\n"
+            "point: around an object of --occluders; N is rounded up to a multiple of 6")
         ->check(CLI::Range(1, kMaxRays))
         ->default_str("1024; --occluders: 256");
     add_fit(command, a.options.fit,

@@ -209,7 +209,8 @@ void add_lamps(CLI::App* command, LampOptions& lamps) {
 void add_method(CLI::App* command, BakeOptions& options) {
     choice(command, "--denoise", options.repairs.denoise, kDenoise,
            "removal of the noise of rays from the baked light\n"
-           "no effect with --fit surface, --method raster and --instances shared",
+           "no effect with --refine, --fit surface (also if --fit auto chooses it), --method raster\n"
+           "no effect on shared instances, direct light of lamps, and probes of --volume",
            "on");
     add_device(command, options.tracer);
     add_fit(command, options.fit,

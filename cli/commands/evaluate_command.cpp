@@ -181,7 +181,7 @@ void add_evaluate(CLI::App& app, Session& session) {
         check_light_options(*command, !given.lights.empty());
         run(given, session);
     });
-    command->add_option("baked", a.baked, "bake that is the reference: output of prt bake")
+    command->add_option("baked", a.baked, "output of prt bake: reference for shipped; measured by --measure")
         ->required()
         ->check(named);
     command->add_option("shipped", a.shipped, "compressed file or other bake; not needed with --measure")
@@ -196,6 +196,7 @@ void add_evaluate(CLI::App& app, Session& session) {
     add_suns(command, a.suns,
              std::string("number of suns of --lights for which a renderer has shadow maps\n"
                          "errors are measured with these suns in the sky, and with these suns separate\n"
+                         "only in the sky: shipped of prt compress --combine-direct, and --measure sweep\n"
                          "needs --lights\n") +
                  kSunsOfLightFiles,
              "auto");

@@ -243,9 +243,11 @@ void add_info(CLI::App& app, Session& session) {
     auto& a = arguments_for<InfoArguments>(command,
                                            [&session](const InfoArguments& given) { run(given, session); });
     command->add_option("file", a.file, "file to describe: any .gltf or .glb")->required()->check(named);
-    command->add_flag("--check", a.check,
-                      "also list problems with remedies; exit status 1 if there are any\n"
-                      "also parts that a bake ignores, as normal maps, for which no action is needed");
+    command->add_flag(
+        "--check", a.check,
+        "also list problems with remedies; exit status 1 if there are any\n"
+        "parts that a bake ignores, as normal maps, are also problems: status 1, though the remedy\n"
+        "  is that no action is needed");
     add_reading(command, a.reading);
     add_json(command, a.json);
 }

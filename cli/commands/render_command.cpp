@@ -591,7 +591,8 @@ void add_render(CLI::App& app, Session& session) {
     add_light(command, a.environment);
     add_output(command, a.output,
                "write the picture to this file, .png or .exr\n"
-               ".png: 8 bits; with --show lit exposed and with a tone curve; .exr: linear values");
+               ".png: 8 bits; with --show lit exposed and with --tone-map, else sRGB\n"
+               ".exr: float32, linear values without exposure and tone curve");
     add_view(command, a.view);
     choice(command, "--device", a.backend, kDevices,
            "processor that draws the picture\n"
@@ -624,9 +625,10 @@ void add_render(CLI::App& app, Session& session) {
                      "samples along each axis of a pixel, 1 to 16: N x N per pixel")
         ->capture_default_str()
         ->check(CLI::Range(1, 16));
-    command->add_flag("!--no-background", a.look.background,
-                      "draw a black background; default: the image of --lights\n"
-                      "a light file has no image: the background is always black");
+    command->add_flag(
+        "!--no-background", a.look.background,
+        "draw a black background; default: the image of --lights\n"
+        "always black without --lights, with a light file, and with --show clusters, error and ao");
     add_light_options(command, a.light_options);
     add_suns(command, a.lights.suns,
              std::string("number of suns of --lights that are drawn with sharp shadows\n"
