@@ -79,7 +79,9 @@ void add_preset(CLI::App* command, SearchOptions& o) {
         ->default_str("u32");
     count_or_auto(command, "--clusters", {1, 65536}, o.compress.clusters, o.choose_clusters,
                   "limit of clusters, 1 to 65536; default: 256, or auto with a goal\n"
-                  "auto: chosen for the goal: --max-error, --bytes-per-vertex or --shader-ops");
+                  "auto: chosen for a goal, which it needs: --max-error, --bytes-per-vertex or --shader-ops\n"
+                  "not with a --preset other than custom\n"
+                  "with --bits float, the default is lower for small meshes, as with presets");
     count_or_auto(command, "--components", {0, 3 * coefficient_count(kMaxOrder)},
                   o.compress.coding.components, o.choose_components,
                   "limit of components per cluster; default: 16, or auto with a goal\n"
@@ -137,14 +139,17 @@ void add_goals(CLI::App* command, SearchOptions& o) {
             "--bytes-per-vertex", o.budget.bytes_per_vertex,
             "find the minimum error with at most X bytes per vertex, with bases\n"
             "X: the bytes of its 32-bit words, plus the bytes of all bases / number of vertices or texels\n"
-            "with --max-error: only an additional limit; default: no limit")
+            "with --max-error: only an additional limit; default: no limit\n"
+            "with --shader-ops: the result keeps both limits; probes of a volume are not limited\n"
+            "not with --bits N or a --preset other than custom")
         ->check(above_zero());
     command
         ->add_option("--shader-ops", o.budget.operations,
                      "limit of the mean number of multiply-adds per vertex in the shader\n"
                      "one multiply-add of a color for each component, plus those of --predictors:\n"
                      "  none: 0, normal: 3, position: 6\n"
-                     "without another goal: find the minimum error; default: no limit")
+                     "without --max-error: find the minimum error; default: no limit\n"
+                     "not with --bits N or a --preset other than custom")
         ->check(above_zero());
 }
 

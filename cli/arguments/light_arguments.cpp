@@ -81,7 +81,7 @@ void add_light_options(CLI::App* command, LightOptions& options) {
     const auto window = std::ranges::find(kWindows, options.window, &Choice<Window>::value);
     choice(command, "--window", options.window, kWindows,
            "filter on the SH bands of the sky against ringing\n"
-           "needs a light from a file; separate suns are not filtered\n"
+           "needs a light from a file; suns in the sky are filtered, separate suns are not\n"
            "backgrounds and path tracing use images without the filter",
            window->name);
     command
@@ -150,11 +150,14 @@ void add_lamps(CLI::App* command, LampChoice& lamps) {
                 lamps.file = given == "on" || given == "off" ? "" : given;
             },
             "brightness of the baked lamps\n"
-            "on: the strengths of the scene\n"
+            "a model without transfer has no lamps, except with prt render --path-trace\n"
+            "on: the strengths with which they were baked\n"
             "off: all lamps are dark\n"
             "FILE: .json with a factor or [red, green, blue] for each lamp name; \"*\": all other lamps\n"
-            "factors: 0 to 1e9, multiply the strengths of the scene; lamps that are not listed: 1\n"
-            "name: of a light, emissive material or group of prt bake; other names are an error")
+            "  as {\"desk\": 0.5, \"*\": [1, 0.9, 0.8]}; without \"*\", lamps that are not listed have 1\n"
+            "factors: 0 to 1e9, multiply the baked strengths\n"
+            "name: of a light, an emissive material, or a group (not its members) of prt bake --lamps\n"
+            "  other names are an error; prt info --json lists the names")
         ->type_name("on|off|FILE")
         ->default_str("on");
 }
@@ -188,7 +191,9 @@ void add_metric(CLI::App* command, MetricArguments& arguments) {
                 }
             },
             "lights under which the error is minimized" + explained(kMetrics) + "\n" + kLightFiles +
-                "\nrepeat the option for several files; a family cannot be combined with other lights")
+                "\nlight file: at least of the order of the bake; repeat the option for several files\n"
+                "a family cannot be combined with other lights\n"
+                "outdoor, indoor, day and FILE: mean of all rotations about +Y; lamps of the bake also count")
         ->allow_extra_args(false) // one each time, so that the bake may follow
         ->check(named)
         ->type_name("FAMILY|FILE")

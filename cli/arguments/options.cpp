@@ -22,7 +22,9 @@ constexpr Choice<Traversal> kTraversals[] = {
     {"compute", Traversal::compute, "a bounding volume hierarchy in compute shaders"},
     {"device", Traversal::device, "ray queries of the GPU"}};
 constexpr Choice<Inside> kInsides[] = {
-    {"refill", Inside::refill, "the value of their neighbours; avoids dark seams where solids meet"},
+    {"refill", Inside::refill,
+     "the value of their neighbours; avoids dark seams where solids meet\n"
+     "  vertices remain black if their part of the mesh is completely inside"},
     {"keep", Inside::keep, "black, because no light reaches them"}};
 constexpr Choice<FitMode> kFits[] = {
     {"auto", FitMode::automatic,
@@ -138,7 +140,11 @@ void add_threads(CLI::App* command, int& threads) {
 }
 
 void add_json(CLI::App* command, Path& json) {
-    command->add_option("--json", json, "write all results as JSON to this file, .json; default: no file")
+    command
+        ->add_option(
+            "--json", json,
+            "write all results as JSON to this file, .json; default: no file\n"
+            "results: the numbers that the command prints, and others; not the data of the output file")
         ->type_name("FILE")
         ->check(named);
 }
@@ -196,7 +202,10 @@ void add_seed(CLI::App* command, std::uint64_t& seed) {
 }
 
 void add_enclosed(CLI::App* command, Inside& inside) {
-    choice(command, "--enclosed", inside, kInsides, "value of vertices and texels inside solid geometry",
+    choice(command, "--enclosed", inside, kInsides,
+           "value of vertices and texels inside solid geometry\n"
+           "inside: all rays hit surfaces, at least 98 % of them the backs of single-sided materials\n"
+           "prt ao: not with --occluders",
            "refill");
 }
 

@@ -45,7 +45,8 @@ void add_volume(CLI::App* command, VolumeArguments& arguments) {
                 volume.spacing = *metres;
             })
             .detail("METRES: distance between probes near surfaces; it is larger in open space")
-            .detail("not with --target-error, --method raster and --instances shared")
+            .detail("not with --target-error, --method raster or --instances shared; --instances auto acts "
+                    "as own")
             .whole_number("probes", 125, 1 << 28,
                           "instead of METRES, as --volume probes=4000: at most N probes, 125 to 2^28",
                           [&volume, check_one](int count) {
@@ -53,8 +54,8 @@ void add_volume(CLI::App* command, VolumeArguments& arguments) {
                               volume.probes = static_cast<std::size_t>(count);
                           })
             .number("error", 0, 0.99,
-                    "split cells, down to METRES / 4, until the relative L2 error is X [0: no split]\n"
-                    "  0 to 0.99; needs METRES",
+                    "split cells, down to METRES / 4, until the relative L2 error is <= X [0: no split]\n"
+                    "  0 to 0.99; needs METRES; error of interpolation between probes, over the whole volume",
                     [&volume](double error) { volume.error = error; })
             .whole_number("order", 2, kMaxIncidentOrder,
                           "SH order of the light that arrives at a probe, 2 to 4 [3]",
@@ -66,7 +67,8 @@ void add_volume(CLI::App* command, VolumeArguments& arguments) {
                         kRaysWorthAFit),
                     [&volume](double points) { volume.fit_points = points; })
             .key("bounds", "x0,y0,z0,x1,y1,z1",
-                 "corners of the volume, world space, metres [box of the scene]",
+                 "corners of the volume, world space, metres [box of the scene]\n"
+                 "  x0 < x1, y0 < y1, z0 < z1",
                  [&arguments](const std::string& text) { arguments.bounds = parse_bounds(text); })
             .add(command);
 }

@@ -343,7 +343,7 @@ void add_ao(CLI::App& app, Session& session) {
         ->default_str("1024; --occluders: 256");
     add_fit(command, a.options.fit,
             "points where the occlusion of vertices is measured\n"
-            "not with --texels and --occluders");
+            "not with --texels or --occluders");
     command->get_option("--texels")->excludes("--fit");
     add_no_shadow(command, a.no_shadow);
     add_back_sides(command, a.back_sides,

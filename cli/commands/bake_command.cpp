@@ -489,17 +489,21 @@ void add_bake(CLI::App& app, Session& session) {
                      "N bands, l = 0 to N - 1; a larger N has sharper shadows and needs more time and bytes")
         ->capture_default_str()
         ->check(CLI::Range(1, kMaxOrder));
-    CLI::Option* rays = command
-                            ->add_option("--rays", a.options.rays,
-                                         "number of rays per vertex, texel or probe, 1 to 2^24\n"
-                                         "with --method raster: number of directions of depth maps")
-                            ->capture_default_str()
-                            ->check(CLI::Range(1, kMaxRays));
+    CLI::Option* rays =
+        command
+            ->add_option(
+                "--rays", a.options.rays,
+                "number of rays per vertex, texel or probe, 1 to 2^24\n"
+                "not with --target-error; rays to lamps: --lamps all,rays=N\n"
+                "with --method raster: number of directions of depth maps, the same for all vertices")
+            ->capture_default_str()
+            ->check(CLI::Range(1, kMaxRays));
     command
         ->add_option(
             "--target-error", a.options.target_error,
             "trace rays until direct light has at most this relative L2 noise\n"
-            "0.01: 1 %; light of the sky; the number of rays differs between vertices; default: --rays\n"
+            "0.01: 1 %, over the whole surface, before --denoise; light of the sky, not of lamps\n"
+            "the number of rays differs between vertices, at most 2^24 each; default: that of --rays\n"
             "not with --rays, --texels, --volume, --refine, --fit surface, --method raster,\n"
             "  --instances shared")
         ->check(above_zero())

@@ -219,7 +219,10 @@ void add_lobes(CLI::App& app, Session& session) {
         app.add_subcommand("lobes", "Bake zonal lobes for skinned meshes, which rotate with the skin");
     auto& a = arguments_for<LobesArguments>(command,
                                             [&session](const LobesArguments& given) { run(given, session); });
-    command->add_option("model", a.model, "model to bake: glTF 2.0 with animations, .gltf or .glb")
+    command
+        ->add_option("model", a.model,
+                     "model to bake: glTF 2.0 with at least one animation, .gltf or .glb\n"
+                     "                              meshes with a skin need JOINTS_0 and WEIGHTS_0")
         ->required()
         ->check(named);
     add_output(command, a.output, "write the model with its lobes to this file, .glb");

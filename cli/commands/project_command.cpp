@@ -131,8 +131,12 @@ void add_project(CLI::App& app, Session& session) {
     command
         ->add_option("environment", a.environment,
                      "environment image (.exr, .hdr, .png, .jpg) or light file (.json)\n"
-                     "                              sky_{face}.hdr: six files, sky_px.hdr, sky_nx.hdr, and "
-                     "py, ny, pz, nz")
+                     "                              light file: output of prt project, at least of the order "
+                     "of --order\n"
+                     "                              name with {face}, as sky_{face}.hdr: six images, the "
+                     "faces of a cube\n"
+                     "                              {face} is px, nx, py, ny, pz, nz, or posx, ..., +x, ..., "
+                     "right, ...")
         ->required()
         ->check(named);
     add_output(command, a.output, "write the light to this file, .json");

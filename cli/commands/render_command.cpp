@@ -585,7 +585,10 @@ void add_render(CLI::App& app, Session& session) {
     });
     command
         ->add_option("model", a.model,
-                     "model to draw: .gltf or .glb; without transfer, the sky has no shadows")
+                     "model to draw: a scene, or output of prt bake, compress or lobes\n"
+                     "                              .gltf or .glb; a scene without transfer is lit by the "
+                     "sky without\n"
+                     "                              shadows and has no lamps, except with --path-trace")
         ->required()
         ->check(named);
     add_light(command, a.environment);

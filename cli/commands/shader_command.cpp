@@ -207,7 +207,10 @@ void add_shader(CLI::App& app, Session& session) {
     auto& a = arguments_for<ShaderArguments>(
         command, [&session](const ShaderArguments& given) { run(given, session); });
     command
-        ->add_option("model", a.model, "model to relight: prt compress output; --stage lobes: of prt lobes")
+        ->add_option(
+            "model", a.model,
+            "model to relight: the output of prt compress, .glb\n"
+            "                              --stage lobes: output of prt lobes; occluders: any .gltf or .glb")
         ->required()
         ->check(named);
     add_output(command, a.output,
