@@ -104,12 +104,14 @@ void add_reading(CLI::App* command, ReadingOptions& reading, double* limit) {
                 if (limit)
                     *limit = static_cast<double>(bytes);
             },
-            limit
-                ? "limit of memory for scene and bake, as 8GB\n"
-                  "the program stops if more is needed; 1 GB: 10^9 bytes, 1 GiB: 2^30 bytes; no unit: bytes\n"
-                  "default for the scene: 256 MB + 64 times the size of its files"
-                : "limit of memory for the scene, as 8GB\n"
-                  "the program stops if more is needed; 1 GB: 10^9 bytes, 1 GiB: 2^30 bytes; no unit: bytes")
+            limit ? "limit of memory for the scene and for the bake\n"
+                    "the program stops if one of them needs more\n"
+                    "a whole number, as 8GB; 1 GB: 10^9 bytes, 1 GiB: 2^30 bytes; no unit: bytes\n"
+                    "default for the bake: the memory of the machine, or of its container if smaller\n"
+                    "default for the scene: 256 MB + 64 times the size of its files"
+                  : "limit of memory for the scene, as 8GB\n"
+                    "the program stops if more is needed\n"
+                    "a whole number; 1 GB: 10^9 bytes, 1 GiB: 2^30 bytes; no unit: bytes")
         ->transform(CLI::AsSizeValue(true))
         ->type_name("SIZE")
         ->default_str(limit ? "the machine's memory" : "256MB + 64 x file size");

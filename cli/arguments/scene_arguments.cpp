@@ -12,8 +12,8 @@ namespace {
 
 constexpr Choice<BackSides> kBackSides[] = {
     {"auto", BackSides::automatic,
-     "add vertices, so that each side has its own light, if light reaches both sides\n"
-     "  light of the sky below the horizon does not count"},
+     "add vertices, so that each side has its own light, if light reaches the back side\n"
+     "  light: of lamps, and of the sky above the horizon; also after reflections"},
     {"shared", BackSides::shared, "back sides show the light of the front sides"}};
 constexpr Choice<LevelMode> kLevelModes[] = {
     {"carry", LevelMode::carry, "fit the light of level 0 to the surface of the coarser level"},

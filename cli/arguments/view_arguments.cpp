@@ -66,8 +66,10 @@ void add_view(CLI::App* command, View& view) {
         ->default_str("1280x720");
     vector_option(command, "--camera", view.camera, "position of the camera, metres",
                   "whole scene is visible");
-    vector_option(command, "--look-at", view.look_at, "point that the camera looks at, metres",
-                  "center of the scene");
+    vector_option(command, "--look-at", view.look_at,
+                  "point that the camera looks at, metres\n"
+                  "default: the point that centers the scene in the picture of the default --camera",
+                  "near the center of the scene");
     command
         ->add_option("--fov", view.field_of_view_degrees,
                      "vertical field of view of the camera in degrees, 1 to 170")
