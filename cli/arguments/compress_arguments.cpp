@@ -67,12 +67,14 @@ void add_preset(CLI::App* command, SearchOptions& o) {
                     o.compress.coding = kPresets.at(name)();
             },
             "size and layout of the compressed data of a vertex\n"
-            "u32: one 32-bit word; up to 256 clusters, which have different numbers of components\n"
+            "u32: one 32-bit word; clusters have different numbers of components\n"
             "u64: two 32-bit words, with clusters like those of u32\n"
             "u32x4: one 32-bit word, four components in each cluster; for shaders without a loop\n"
             "u64x9: two 32-bit words, nine components in each cluster; for shaders without a loop\n"
-            "custom: sizes from --clusters, --components and --bits; default with these or a goal\n"
-            "small meshes get fewer clusters: bases need at most twice the bytes of the vertices, or 4 KB\n"
+            "custom: sizes from --clusters, --components and --bits, or chosen for a goal\n"
+            "  default with one of these options or a goal\n"
+            "all except custom: up to 256 clusters; fewer for small meshes and lightmaps:\n"
+            "  bases need at most twice the bytes of vertices or texels, or 4096 bytes if that is more\n"
             "presets except custom cannot be combined with goals, --clusters, --components and --bits")
         ->check(CLI::IsMember({"u32", "u64", "u32x4", "u64x9", "custom"}))
         ->type_name("u32|u64|u32x4|u64x9|custom")

@@ -42,7 +42,7 @@ constexpr Choice<MapLayout> kLayouts[] = {
      "1:1, light probe (Debevec): all directions in a circle; the center shows -z"}};
 constexpr Choice<BadPixels> kBadPixels[] = {
     {"error", BadPixels::error, "stop with an error"},
-    {"zero", BadPixels::zero, "replace the pixel by black"},
+    {"zero", BadPixels::zero, "replace the pixel by black, all three channels"},
     {"clamp", BadPixels::clamp,
      "set negative channels and NaN to 0, infinite ones to the largest value of the image"}};
 constexpr Choice<MetricChoice> kMetrics[] = {
@@ -116,7 +116,9 @@ void add_light_options(CLI::App* command, LightOptions& options) {
             "default: the channels without a layer name, else the only layer; other formats: an error")
         ->default_str("by the file");
     choice(command, "--bad-pixels", options.environment.bad_pixels, kBadPixels,
-           "handling of negative, infinite and NaN pixels of an image", "error");
+           "handling of negative, infinite and NaN pixels of an image\n"
+           "needs a light from a file; light files ignore it",
+           "error");
 }
 
 void check_light_options(const CLI::App& command, bool has_lights) {
@@ -131,7 +133,7 @@ void add_suns(CLI::App* command, SunCount& suns, const std::string& text, const 
                       [&suns](const std::string& given) { set_count(given, suns); });
     option.detail("N: at most the N strongest suns of an image, 0 to 16; 0: suns are part of the sky")
         .detail(
-            "auto: up to 4 suns of an image that each reduce the error of light in shadows by 1 % or more");
+            "auto: 0 to 4 suns of an image, if they reduce the relative error in shadows by 0.01 per sun");
     if (rays)
         option.whole_number("rays", 1, 1 << 20,
                             fmt::format("rays to each sun, from a vertex (relight) or a pixel (render) [{}]\n"

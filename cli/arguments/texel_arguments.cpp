@@ -61,10 +61,13 @@ CLI::Option* add_texels(CLI::App* command, TexelArguments& a, const std::string&
     CLI::Option* texels =
         Suboptions("--texels", "N|N/m", text, [&a](const std::string& value) { parse_size(value, a.texels); })
             .detail("N: number of texels along each side of a texture, 1 to 8192")
-            .detail("N/m: mean number of texels per metre of surface, as 64/m; at most 8192 along a side")
-            .flag("unwrap", "create a new set of texture coordinates if that of uv=N is missing or overlaps",
+            .detail(
+                "N/m: mean number of texels per metre of surface, as 64/m; an error above 8192 along a side")
+            .flag("unwrap", "create a new set of texture coordinates if that of uv=N is missing or unusable",
                   [&a] { a.unwrap = true; })
-            .detail("  overlaps: within an object (node); with atlas=one also between objects")
+            .detail("  unusable: overlaps within an object (node), with atlas=one also between objects,")
+            .detail(
+                "    has no area, crosses the border of the texture, or needs more than 8192 texels for N/m")
             .whole_number("uv", 0, 7, "set of texture coordinates to use, TEXCOORD_N, 0 to 7 [1]",
                           [&a](int set) { a.texels.uv_set = set; })
             .key("atlas", names_of(kAtlasModes),
@@ -74,15 +77,16 @@ CLI::Option* add_texels(CLI::App* command, TexelArguments& a, const std::string&
             .add(command);
     Suboptions("--high-poly", "FILE",
                "trace rays against this detailed model instead of the scene\n"
-               "needs --texels: a texel gets the value of the detailed surface along its normal\n"
-               "beyond the distance it gets the value of the scene",
+               "needs --texels; FILE: .gltf or .glb, in the coordinate frame of the scene\n"
+               "a texel is measured on the outermost detailed surface along its normal, within the distance\n"
+               "  outwards and inwards, that faces the same way; if it is missing, on the scene\n"
+               "--no-shadow has no effect on this model",
                [&a](const std::string& file) {
                    if (file.empty())
                        throw CLI::ValidationError("--high-poly", "the name of the file is empty");
                    a.high_poly = file;
                })
-        .number("distance", 1e-9, 1e9,
-                "maximum distance from scene to detailed model, metres [scene diagonal / 50]",
+        .number("distance", 1e-9, 1e9, "maximum distance from the scene, metres [diagonal of the scene / 50]",
                 [&a](double metres) { a.distance = metres; })
         .add(command);
     a.option = texels;

@@ -69,8 +69,10 @@ void add_view(CLI::App* command, View& view) {
                   "+Y is up; the camera must not look straight up or down\n"
                   "default: chosen for --fov and --size, with the default of --look-at",
                   "whole scene is visible");
-    vector_option(command, "--look-at", view.look_at, "point that the camera looks at, metres",
-                  "center of the scene");
+    vector_option(command, "--look-at", view.look_at,
+                  "point that the camera looks at, metres\n"
+                  "default: the point that centers the scene in the picture of the default --camera",
+                  "near the center of the scene");
     command
         ->add_option("--fov", view.field_of_view_degrees,
                      "vertical field of view of the camera in degrees, 1 to 170")

@@ -160,13 +160,15 @@ void add_transport(CLI::App* command, BakeOptions& options) {
             "add subsurface scattering; without MATERIAL=: to all materials\n"
             "MEDIUM: a name from the list below, or six numbers sr,sg,sb,ar,ag,ab in 1/mm\n"
             "sr,sg,sb: reduced scattering of red, green and blue light; ar,ag,ab: absorption\n"
+            "  1/mm: for a scene in metres, else see --metres-per-unit; sr: 1e-12 to 1e6, ar: 0 to 1e6\n"
             "names: " +
                 names_of_media() +
                 "\n"
                 "repeat the option for several materials, each once; an entry for all materials comes first\n"
+                "an unknown material is an error; not with --texels and --instances shared\n"
                 "default: materials scatter that have KHR_materials_diffuse_transmission, and\n"
                 "  KHR_materials_volume with thickness and attenuation distance\n"
-                "an entry replaces their medium")
+                "  an entry of --subsurface replaces their medium")
         ->allow_extra_args(false) // one each time, so that the scene may follow
         ->type_name("[MATERIAL=]MEDIUM");
     command

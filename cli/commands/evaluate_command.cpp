@@ -31,10 +31,12 @@ constexpr Choice<Measure> kMeasures[] = {
      "  compresses the first file"},
     {"budget", Measure::budget,
      "parts of the surface error by cause, with advice; path traces and bakes once more\n"
-     "  a second file must be compressed; not with subsurface scattering and --rotations above 1"},
+     "  if a second file is given, it must be compressed; not with --rotations above 1\n"
+     "  not for bakes with subsurface scattering, --high-poly or --enclosed keep"},
     {"volume", Measure::volume,
      "error of the probe volume against path tracing, by distance from surfaces\n"
-     "  the first file must contain a volume, and a second file its compressed volume"}};
+     "  the first file must contain a volume; if a second file is given, its compressed volume\n"
+     "  not with --rotations above 1"}};
 
 struct EvaluateArguments {
     Path baked, shipped;
@@ -184,13 +186,18 @@ void add_evaluate(CLI::App& app, Session& session) {
     command->add_option("baked", a.baked, "output of prt bake: reference for shipped; measured by --measure")
         ->required()
         ->check(named);
-    command->add_option("shipped", a.shipped, "compressed file or other bake; not needed with --measure")
+    command
+        ->add_option("shipped", a.shipped,
+                     "compressed file of the first file, or another bake to compare\n"
+                     "                              other bake: same vertices or texels, same order\n"
+                     "                              not needed with --measure")
         ->check(named);
     CLI::Option* lights =
         add_lights(
             command, a.lights,
             "light under which errors are measured\n"
-            "default: built-in lights: a uniform sky, an overcast sky and a sun; FILE replaces all three")
+            "default: built-in lights: a uniform sky, an overcast sky and a sun; FILE replaces all three\n"
+            "with a second file also: the worst of 64 suns, random light, all lamps, each lamp alone")
             ->default_str("three built-in lights");
     add_light_options(command, a.light_options);
     add_suns(command, a.suns,
@@ -204,7 +211,7 @@ void add_evaluate(CLI::App& app, Session& session) {
         ->add_option("--rotations", a.rotations,
                      "number of rotations about +Y of each file of --lights\n"
                      "equally spaced over 360 degrees, 1 to 64; 1: only the rotation of --rotate\n"
-                     "needs --lights; only 1 with --measure budget, and no effect on --measure volume")
+                     "needs --lights; only 1 with --measure budget and with --measure volume")
         ->capture_default_str()
         ->check(CLI::Range(1, 64))
         ->needs(lights);

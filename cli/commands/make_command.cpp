@@ -81,6 +81,8 @@ void add_make(CLI::App& app, Session& session) {
     command
         ->add_option("--seconds", r.goal.seconds,
                      "limit the time to about X seconds by fewer rays and trials\n"
+                     "noise increases, and a given --max-error may fail\n"
+                     "at least 64 rays per vertex and one compression: large scenes can take longer\n"
                      "default: no limit")
         ->check(above_zero());
     command

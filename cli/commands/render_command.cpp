@@ -86,7 +86,8 @@ constexpr Choice<Show> kShows[] = {
      "error against a reference: needs either --baked or --path-trace\n"
      "  --baked: contrast error, white: 10 %; --path-trace: HDR-FLIP, white: 1"},
     {"ao", Show::ao,
-     "ambient occlusion: the model under a uniform white sky, without lamps and textures\n"
+     "ambient occlusion: the model under a uniform white sky instead of --lights\n"
+     "  without lamps, colors and textures of materials; a model without transfer is white\n"
      "  by the transfer of the model, which contains the bounces of the bake"}};
 constexpr Choice<ToneMap> kToneMaps[] = {
     {"filmic", ToneMap::filmic, "a film curve, which compresses dark and bright values softly"},
@@ -625,7 +626,8 @@ void add_render(CLI::App& app, Session& session) {
            "filmic");
     command
         ->add_option("--samples", a.view.samples,
-                     "samples along each axis of a pixel, 1 to 16: N x N per pixel")
+                     "samples along each axis of a pixel, 1 to 16: N x N per pixel\n"
+                     "no effect on a path-traced picture; a GPU limits N times --size, the CPU does not")
         ->capture_default_str()
         ->check(CLI::Range(1, 16));
     command->add_flag(
