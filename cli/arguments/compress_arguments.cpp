@@ -160,9 +160,10 @@ void add_goals(CLI::App* command, SearchOptions& o) {
 void add_options(CLI::App* command, CompressArguments& a) {
     add_preset(command, a.options);
     add_goals(command, a.options);
-    command->add_flag("--best-effort", a.best_effort,
-                      "write the closest result if no result meets the goals; default: error\n"
-                      "goals: --max-error, --bytes-per-vertex, --shader-ops, --max-jump; else no effect");
+    command->add_flag(
+        "--best-effort", a.best_effort,
+        "write the closest result if no result meets the goals; default: error\n"
+        "goals: --max-error, --bytes-per-vertex, --shader-ops, --max-jump; no effect without a goal");
     add_metric(command, a.metric);
     command
         ->add_option(
@@ -173,10 +174,11 @@ void add_options(CLI::App* command, CompressArguments& a) {
             "no effect on the probes of a volume")
         ->capture_default_str()
         ->check(real_in(0, kMaxSeamWeight));
-    command->add_flag("--combine-direct", a.writing.whole,
-                      "merge direct and indirect transfer: fewer bytes, no sharp sun shadows\n"
-                      "suns become part of the sky, with soft shadows only\n"
-                      "default: separate, so that a renderer can draw sharp shadows of suns");
+    command->add_flag(
+        "--combine-direct", a.writing.whole,
+        "merge direct and indirect transfer: fewer bytes, no sharp sun shadows\n"
+        "suns become part of the sky, with soft shadows only; lamps and volumes are not merged\n"
+        "default: separate, so that a renderer can draw sharp shadows of suns");
     command
         ->add_option(
             "--fallback", a.writing.fallback,
@@ -185,8 +187,13 @@ void add_options(CLI::App* command, CompressArguments& a) {
                 kLightFiles)
         ->check(named)
         ->type_name("FILE");
-    Suboptions("--volume", "", "size of the probes; needs a bake with a volume", nullptr)
-        .key("bytes", "N", "bytes per probe, without bases: 4, 8, 12, 16, 20, 24 or 28 [16]",
+    Suboptions("--volume", "",
+               "size of the probes; needs a bake with a volume\n"
+               "goals, --preset and the other sizes have no effect on probes",
+               nullptr)
+        .key("bytes", "N",
+             "bytes per probe: 4, 8, 12, 16, 20, 24 or 28 [16]\n"
+             "  without the bases, and without 6 bytes per probe of visibility distances",
              [&a](const std::string& text) {
                  const std::optional<int> bytes = whole_number(text);
                  if (!bytes || *bytes < 4 || *bytes > 28 || *bytes % 4 != 0)

@@ -169,7 +169,7 @@ void add_reports(CLI::App* command, ReportFiles& files) {
             },
             "write a report: a page (.html) or tables (.csv); default: no report\n"
             "repeat the option to write both files\n"
-            ".csv: rows are lights, lamps, methods, trials and a summary; the header contains the units")
+            ".csv: rows of tables and a summary; first column: name of the table; header: with units")
         ->allow_extra_args(false)
         ->type_name("FILE");
 }

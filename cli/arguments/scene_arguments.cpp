@@ -18,7 +18,8 @@ constexpr Choice<BackSides> kBackSides[] = {
 constexpr Choice<LevelMode> kLevelModes[] = {
     {"carry", LevelMode::carry, "fit the light of level 0 to the surface of the coarser level"},
     {"own", LevelMode::own,
-     "also bake the coarser levels, shown instead of level 0; each takes as long as level 0"},
+     "also bake the coarser levels, shown instead of level 0; each takes as long as level 0\n"
+     "  an error if a level has other lamps, or needs other terms or colors, than level 0"},
     {"ignore", LevelMode::ignore, "coarser levels get no transfer"}};
 constexpr Choice<InstanceMode> kInstanceModes[] = {
     {"own", InstanceMode::own, "bake each instance with its own transfer"},
@@ -35,7 +36,8 @@ void add_no_shadow(CLI::App* command, std::vector<std::string>& materials, const
     command
         ->add_option("--no-shadow", materials,
                      "name of a material that casts no shadow; repeat the option for several\n"
-                     "for example of a sky dome; an unknown name is an error; default: all cast shadows" +
+                     "for example of a sky dome; an unknown name is an error; default: all cast shadows\n"
+                     "rays pass through it: it also reflects no light onto other surfaces" +
                          details)
         ->allow_extra_args(false)
         ->type_name("MATERIAL");
@@ -51,9 +53,9 @@ void add_back_sides(CLI::App* command, BackSides& sides, const std::string& deta
 
 void add_levels(CLI::App* command, LevelMode& mode) {
     choice(command, "--levels", mode, kLevelModes,
-           "transfer of coarser levels of detail: from level 0, from a separate bake, or none\n"
-           "levels: nodes of MSFT_lod, or nodes with names as ROCK_LOD1\n"
-           "--texels: coarser levels get no lightmap; --instances shared: only ignore",
+           "transfer of coarser levels: from level 0, own bakes, or none\n"
+           "levels of detail: nodes of MSFT_lod, or sibling nodes with names as ROCK_LOD0, ROCK_LOD1\n"
+           "--texels: coarser levels get no lightmap; --instances shared: scenes with levels need ignore",
            "carry");
 }
 
@@ -82,8 +84,9 @@ void add_instances(CLI::App* command, InstanceArguments& arguments) {
     CLI::Option* const lights = add_lights(
         command, arguments.lights,
         "light under which errors of shared instances are measured\n"
-        "needs --instances shared or auto; an instance above error=X under a FILE is baked as own\n"
-        "five built-in soft skies are always tested; default: only these");
+        "needs --instances shared or auto; five built-in soft skies are always tested too\n"
+        "an instance is baked as own if its error under a FILE, or under the five skies together, is\n"
+        "  above error=X of --instances; default: only the skies are tested");
     add_suns(
         command, arguments.suns,
         std::string("number of suns of --lights for which a renderer has shadow maps\n"

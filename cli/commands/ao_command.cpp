@@ -345,7 +345,7 @@ void add_ao(CLI::App& app, Session& session) {
             "points where the occlusion of vertices is measured\n"
             "not with --texels or --occluders");
     command->get_option("--texels")->excludes("--fit");
-    add_no_shadow(command, a.no_shadow);
+    add_no_shadow(command, a.no_shadow, "\nno effect on the model of --high-poly");
     add_back_sides(command, a.back_sides,
                    "\nalways shared for --texels without unwrap; no effect with --occluders");
     add_device(command, a.options.tracer);

@@ -50,10 +50,10 @@ struct BakeArguments {
 constexpr Choice<BakeMethod> kBakeMethods[] = {
     {"trace", BakeMethod::trace, "rays, traced by the processor of --device"},
     {"raster", BakeMethod::raster,
-     "depth maps of --rays directions, drawn by OpenGL 4.5; only direct light at vertices\n"
-     "  not with --bounces, --texels, --volume, --refine, --target-error, --fit surface\n"
-     "  not with --instances shared\n"
-     "  --device auto: only a hardware GPU; gpu: also a software driver; other values: an error"}};
+     "depth maps from --rays N directions, by OpenGL 4.5; only direct light at vertices\n"
+     "  not with --bounces above 0, --texels, --volume, --refine, --target-error, --fit surface\n"
+     "  not with --instances shared; light of lamps is traced by rays on the CPU\n"
+     "  --device auto: a hardware GPU, else error; gpu: also a software driver; others: error"}};
 constexpr Choice<std::optional<TransferStorage>> kStorages[] = {
     {"auto", std::nullopt,
      "float16 if its rounding error is below 1/10 of the noise of the rays, else float32\n"
@@ -227,7 +227,8 @@ void add_method(CLI::App* command, BakeOptions& options) {
                })
         .detail(explained(kBakeMethods).substr(1))
         .whole_number("resolution", 16, 16384,
-                      "texels along each side of a depth map, 16 to 16384; needs raster [1024]",
+                      "texels along each side of a depth map, 16 to 16384; needs raster [1024]\n"
+                      "  more than the GPU supports: an error",
                       [&options](int texels) { options.tracer.raster_resolution = texels; })
         .add(command)
         ->default_str("trace");
@@ -240,10 +241,12 @@ void add_refinement(CLI::App* command, BakeArguments& a) {
                        throw CLI::ValidationError("--refine", wrong);
                    a.finer.refine = real_number(text);
                })
-        .detail("ERROR: relative L2 interpolation error of direct light over the surface, as 0.02 (2 %)")
-        .detail("the written mesh contains the new vertices; default: no triangle is split")
-        .detail("stops earlier at the maximum number of vertices, and at very short edges")
-        .detail("fits light to the surface; not with --fit vertex, --target-error, --texels, --method raster")
+        .detail("ERROR: relative L2 interpolation error of direct light of the sky, without lamps; 0.02: 2 %")
+        .detail("the written mesh contains the new vertices; coarser levels of detail are not split")
+        .detail("stops earlier at the maximum number of vertices, and at very short edges; default: no split")
+        .detail(
+            "fits light to the surface (--fit surface); not with --fit vertex, --target-error, --texels,\n"
+            "  --method raster, --instances shared")
         .whole_number("vertices", 1, std::numeric_limits<int>::max(),
                       "maximum number of vertices [4 x those of the scene, at least 20000]",
                       [&a](int count) { a.finer.max_vertices = static_cast<std::size_t>(count); })
@@ -513,7 +516,7 @@ void add_bake(CLI::App& app, Session& session) {
     add_transport(command, a.options);
     add_lamps(command, a.options.lamps);
     add_lamp_scale(command, a.reading.lamp_scale);
-    add_no_shadow(command, a.no_shadow);
+    add_no_shadow(command, a.no_shadow, "\nno effect on the model of --high-poly");
     add_method(command, a.options);
     add_refinement(command, a);
     add_back_sides(command, a.back_sides,

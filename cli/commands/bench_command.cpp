@@ -125,9 +125,10 @@ void add_bench(CLI::App& app, Session& session) {
             "1 to 262144, FROM at most TO; with depth maps: number of directions")
         ->type_name("FROM..TO")
         ->default_str(fmt::format("{}..{}", a.options.fewest_rays, a.options.max_rays));
-    Suboptions("--method", "", "setting of the runs that use depth maps", nullptr)
+    Suboptions("--method", "", "setting of the runs that use depth maps (prt bake --method raster)", nullptr)
         .whole_number("resolution", 16, 16384,
-                      "number of texels along each side of a depth map, 16 to 16384 [1024]",
+                      "number of texels along each side of a depth map, 16 to 16384 [1024]\n"
+                      "  more than the GPU supports: these runs are omitted",
                       [&a](int texels) { a.options.raster_resolution = texels; })
         .add(command);
     command

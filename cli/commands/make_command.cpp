@@ -19,7 +19,8 @@ constexpr const char* kMaxErrorText =
     "find the fewest bytes per vertex with at most this error\n"
     "relative L2 over the surface against path tracing, root mean square over --lights\n"
     "lamps of the scene are off; each light has only the rotation of --rotate\n"
-    "default: 0.03 (3 %), or 1.2 times the error before compression if that is larger";
+    "default: 0.03 (3 %), or 1.2 times the error before compression if that is larger\n"
+    "  no limit with --bytes-per-vertex, which cannot be combined with it";
 
 struct MakeArguments {
     MakeRequest request;
@@ -86,9 +87,10 @@ void add_make(CLI::App& app, Session& session) {
                      "default: no limit")
         ->check(above_zero());
     command
-        ->add_flag("--best-effort", r.goal.best_effort,
-                   "write the closest result if --max-error is not met; default: error\n"
-                   "only with --max-error; without a goal, the closest result is always written")
+        ->add_flag(
+            "--best-effort", r.goal.best_effort,
+            "write the closest result if --max-error is not met; default: error\n"
+            "needs --max-error; without it and --bytes-per-vertex, the closest result is always written")
         ->needs(error);
     command
         ->add_option("--keep-bake", r.baked,

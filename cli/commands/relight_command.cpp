@@ -35,7 +35,9 @@ constexpr Choice<ColorKind> kColors[] = {
     {"radiance", ColorKind::radiance, "radiance of a surface with albedo 1; linear, float32"},
     {"albedo", ColorKind::albedo, "radiance times the base color of the surface; linear, float32"},
     {"unlit", ColorKind::unlit,
-     "radiance times --exposure, 16 bits; materials become unlit; for Blender, viewers"}};
+     "radiance times --exposure, 16 bits, clipped at 1; materials become unlit\n"
+     "  multiplied by vertex colors of the scene; for Blender and viewers\n"
+     "  glass, emissive and unlit materials do not change"}};
 
 struct RelightArguments {
     Path model, environment, output, json;

@@ -43,16 +43,18 @@ constexpr Choice<ConstantSource> kConstants[] = {
     {"texture", ConstantSource::texture, "float texture"}};
 constexpr Choice<Stage> kStages[] = {
     {"vertex", Stage::vertex,
-     "relights vertices; for a lightmap: texels, by compute shader if the language has it\n"
+     "vertex shader that relights vertices\n"
+     "  for a lightmap: compute shader (glsl450, vulkan) or fragment shader that relights texels\n"
      "  for a file with only a volume: as volume"},
     {"compute", Stage::compute,
-     "compute shader that computes the constants of a lighting; glsl450 or vulkan"},
-    {"fragment", Stage::fragment, "fragment shader that relights the texels of a lightmap"},
+     "compute shader that computes the constants of a lighting; only glsl450 and vulkan\n"
+     "  for a file with only a volume: as volume-compute"},
+    {"fragment", Stage::fragment, "fragment shader that relights the texels of a lightmap; needs a lightmap"},
     {"instances", Stage::instances, "vertex shader for instances of prt bake --instances shared"},
     {"volume", Stage::volume, "functions that read the light of the probe volume, for all languages"},
     {"volume-compute", Stage::volume_compute,
      "compute shader that writes the texture which the functions of volume read\n"
-     "  glsl450 or vulkan"},
+     "  only glsl450 and vulkan"},
     {"occluders", Stage::occluders, "functions for contact shadows of moving objects, for all languages"},
     {"lobes", Stage::lobes, "functions that relight figures of prt lobes, for all languages"}};
 
