@@ -12,7 +12,7 @@ namespace {
 
 constexpr Choice<BackSides> kBackSides[] = {
     {"auto", BackSides::automatic,
-     "add vertices, so that each side has its own light, if light reaches both sides\n"
+     "add vertices with separate light for back sides that light reaches\n"
      "  light of the sky below the horizon does not count"},
     {"shared", BackSides::shared, "back sides show the light of the front sides"}};
 constexpr Choice<LevelMode> kLevelModes[] = {

@@ -61,9 +61,11 @@ CLI::Option* add_texels(CLI::App* command, TexelArguments& a, const std::string&
     CLI::Option* texels =
         Suboptions("--texels", "N|N/m", text, [&a](const std::string& value) { parse_size(value, a.texels); })
             .detail("N: number of texels along each side of a texture, 1 to 8192")
-            .detail("N/m: mean number of texels per metre of surface, as 64/m; at most 8192 along a side")
+            .detail("N/m: mean number of texels per metre of surface, as 64/m")
+            .detail("  an error if a texture would need more than 8192 texels along a side")
             .flag("unwrap", "create a new set of texture coordinates if that of uv=N is missing or overlaps",
                   [&a] { a.unwrap = true; })
+            .detail("  without unwrap, a missing or overlapping set is an error")
             .detail("  overlaps: within an object (node); with atlas=one also between objects")
             .whole_number("uv", 0, 7, "set of texture coordinates to use, TEXCOORD_N, 0 to 7 [1]",
                           [&a](int set) { a.texels.uv_set = set; })
