@@ -84,13 +84,15 @@ void add_preset(CLI::App* command, SearchOptions& o) {
                   "auto: chosen for a goal, which it needs: --max-error, --bytes-per-vertex or --shader-ops\n"
                   "not with a --preset other than custom\n"
                   "with --bits float, the default is lower for small meshes, as with presets");
-    count_or_auto(command, "--components", {0, 3 * coefficient_count(kMaxOrder)},
-                  o.compress.coding.components, o.choose_components,
-                  "limit of components per cluster; default: 16, or auto with a goal\n"
-                  "auto: chosen for the goal: --max-error, --bytes-per-vertex or --shader-ops\n"
-                  "PCA components, 0 to 300; more than the coefficients of a vertex are an error\n"
-                  "without --bits float at most 16 are used\n"
-                  "default with --bits float and without a goal: 8");
+    count_or_auto(
+        command, "--components", {0, 3 * coefficient_count(kMaxOrder)}, o.compress.coding.components,
+        o.choose_components,
+        "limit of components per cluster; default: 16, or auto with a goal\n"
+        "auto: chosen for the goal, which it needs: --max-error, --bytes-per-vertex or --shader-ops\n"
+        "PCA components, 0 to 300; more than the coefficients of a vertex or texel are an error\n"
+        "without --bits float at most 16 are used\n"
+        "default with --bits float and without a goal: 8\n"
+        "not with --preset, except --preset custom");
     command
         ->add_option_function<std::string>(
             "--bits", [&o](const std::string& text) { set_bits(text, o.compress.coding); },
@@ -182,8 +184,12 @@ void add_options(CLI::App* command, CompressArguments& a) {
     command
         ->add_option(
             "--fallback", a.writing.fallback,
-            std::string("add vertex colors, lit by this file, for viewers without PRT support\n"
-                        "not for lightmaps and shared instances; default: no vertex colors are added\n") +
+            std::string(
+                "add vertex colors, lit by this file, for viewers without PRT support\n"
+                "not for lightmaps and shared instances; default: no vertex colors are added\n"
+                "exposure is automatic; suns are part of the sky; lamps are as bright as in the scene\n"
+                "materials become unlit; emissive, glass and unlit ones remain as they are\n"
+                "programs that read the transfer restore the original colors and materials\n") +
                 kLightFiles)
         ->check(named)
         ->type_name("FILE");

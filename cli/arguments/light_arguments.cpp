@@ -113,7 +113,11 @@ void add_light_options(CLI::App* command, LightOptions& options) {
         ->add_option(
             "--layer", options.environment.layer,
             "name of the layer or part of an OpenEXR image to read\n"
-            "default: the channels without a layer name, else the only layer; other formats: an error")
+            "layer: the channels NAME.R, NAME.G and NAME.B, or NAME.Y\n"
+            "part: the channels R, G and B, or Y, of the part with this name\n"
+            "default: the channels without a layer name in the first part, else the only layer or part\n"
+            "  other OpenEXR images need this option\n"
+            "other image formats: an error; light files ignore it; needs a light from a file")
         ->default_str("by the file");
     choice(command, "--bad-pixels", options.environment.bad_pixels, kBadPixels,
            "handling of negative, infinite and NaN pixels of an image\n"

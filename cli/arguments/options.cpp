@@ -92,8 +92,9 @@ void add_output(CLI::App* command, Path& output, const std::string& text) {
 void add_reading(CLI::App* command, ReadingOptions& reading, double* limit) {
     reading.notify = print_notices;
     command->add_flag("--allow-outside", reading.allow_outside,
-                      "allow the scene to read files outside its folder; default: an error\n"
-                      "for trusted scenes only");
+                      "let the scene read files outside its folder; for trusted scenes only\n"
+                      "files: buffers and textures; folder: that of the scene file, with its subfolders\n"
+                      "default: buffers outside are an error; textures outside are missing (--bad-textures)");
     choice(command, "--bad-textures", reading.bad_textures, kBadTextures,
            "handling of missing, damaged or unsupported textures", "error");
     command

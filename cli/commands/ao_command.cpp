@@ -272,6 +272,7 @@ void run(AoArguments a, Session& session) {
 void add_outputs(CLI::App* command, AoArguments& a) {
     CLI::Option* texels = add_texels(command, a.textures,
                                      "bake textures of this size instead of vertices; default: vertices\n"
+                                     "occlusion textures of the materials, which replace existing ones\n"
                                      "not with --fit, --attribute and --occluders");
     command
         ->add_option("--attribute", a.attribute,
@@ -290,8 +291,9 @@ void add_outputs(CLI::App* command, AoArguments& a) {
             "--occluders", a.outputs.occluders,
             "write occlusion volumes of all objects of the scene, not vertex values\n"
             "for contact shadows of moving objects: the scene should contain no static ground and walls\n"
-            "object: a root node with its children; animated nodes and bones are separate objects\n"
-            "parts smaller than 12 % of the scene are merged into the part above them\n"
+            "object: a root node with all nodes below it; animated nodes and bones are separate objects\n"
+            "small animated nodes and bones are merged into the nearest object above in the hierarchy\n"
+            "  small: the diagonal of the bounding box is below 12 % of that of the scene\n"
             "not with --texels, --attribute, --bent-normals, --fit, --enclosed, --falloff, --max-distance")
         ->excludes(texels)
         ->excludes("--attribute")
@@ -311,15 +313,18 @@ void add_falloff(CLI::App* command, Falloff& falloff) {
                     }
             },
             "let surfaces at DISTANCE metres block half of the light\n"
-            "nearer surfaces block more, farther ones less (obscurance)\n"
-            "SHARE: weight of a distance [1], as 2:97,300:3 for 97 % and 3 %\n"
-            "not with --occluders; default: surfaces block all light at any distance")
+            "nearer surfaces block more, farther ones less (obscurance); DISTANCE: above 0\n"
+            "several distances: the weighted mean of their blocked light\n"
+            "SHARE: weight of a distance, 0 or more [1], as 2:97,300:3 for 97 % and 3 %\n"
+            "not with --occluders\n"
+            "default: surfaces block all light at any distance up to --max-distance")
         ->allow_extra_args(false)
         ->type_name("DISTANCE[:SHARE],...");
     command
         ->add_option("--max-distance", falloff.farthest,
-                     "ignore surfaces beyond X metres; default: no limit\n"
-                     "nearer surfaces as by --falloff; not with --occluders")
+                     "ignore surfaces beyond X metres, above 0; default: no limit\n"
+                     "nearer surfaces block light as with --falloff; without --falloff they block all light\n"
+                     "not with --occluders")
         ->check(above_zero());
 }
 

@@ -58,7 +58,7 @@ constexpr Choice<std::optional<TransferStorage>> kStorages[] = {
     {"auto", std::nullopt,
      "float16 if its rounding error is below 1/10 of the noise of the rays, else float32\n"
      "  probes of --volume: float16 if its rounding error is below 0.1 %, else float32"},
-    {"float16", TransferStorage::float16, "2 bytes per coefficient"},
+    {"float16", TransferStorage::float16, "2 bytes per coefficient; not for coefficients above 65504"},
     {"float32", TransferStorage::float32, "4 bytes per coefficient"}};
 constexpr Choice<bool> kDenoise[] = {
     {"on", true, "smooth light over the surface, as far as its differences are noise"},
@@ -138,6 +138,7 @@ void add_transport(CLI::App* command, BakeOptions& options) {
             "--bounces", [&options](const std::string& text) { options.bounces = parse_bounces(text); },
             "number of bounces between surfaces; 0: direct light only\n"
             "N: 0 to 10000; inf: all bounces, until the remaining light is negligible\n"
+            "  inf is an error for lamps in a closed room that reflects all light (base color 1)\n"
             "only 0 with --method raster")
         ->type_name("N|inf")
         ->default_str("0");
@@ -520,7 +521,7 @@ void add_bake(CLI::App& app, Session& session) {
     add_method(command, a.options);
     add_refinement(command, a);
     add_back_sides(command, a.back_sides,
-                   "\nalways shared for shared instances, and for --texels without unwrap");
+                   "\nalways shared if --instances shares transfer, and for --texels without unwrap");
     add_texels(command, a.texels,
                "bake lightmaps of N x N texels, or N texels per metre, instead of vertices\n"
                "not with --fit, --refine, --target-error, --method raster and --instances shared\n"

@@ -177,7 +177,7 @@ void add_quality(CLI::App* command, LobesArguments& a) {
     command->add_option("--lobes", a.fit.lobes, "number of lobes per vertex, 1 to 3; a lobe has four bytes")
         ->capture_default_str()
         ->check(CLI::Range(std::size_t{1}, kMaxLobes));
-    command->add_option("--order", a.bake.order, "SH order N of the lobes, 2 to 4")
+    command->add_option("--order", a.bake.order, "SH order N of the lobes, 2 to 4: N bands, l = 0 to N - 1")
         ->capture_default_str()
         ->check(CLI::Range(2, kMaxLobeOrder));
     Suboptions("--poses", "N",

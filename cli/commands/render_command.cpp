@@ -93,10 +93,12 @@ constexpr Choice<ToneMap> kToneMaps[] = {
     {"filmic", ToneMap::filmic, "a film curve, which compresses dark and bright values softly"},
     {"srgb", ToneMap::srgb, "the sRGB curve; values above 1 are clipped"}};
 constexpr Choice<Backend> kDevices[] = {
-    {"auto", Backend::automatic, "a hardware GPU if there is one, else the CPU"},
+    {"auto", Backend::automatic,
+     "a hardware GPU with OpenGL 4.5 if there is one, else the CPU\n"
+     "  the CPU also if --suns separates more than 4 suns, or any after prt bake --subsurface"},
     {"cpu", Backend::cpu, "the CPU, by casting rays"},
     {"gpu", Backend::gpu,
-     "OpenGL 4.5 on a GPU, or on a software driver\n"
+     "OpenGL 4.5 on a GPU, or on a software driver; more than 4 suns of --suns are an error\n"
      "  after prt bake --subsurface: --suns only 0, and auto acts as 0"}};
 
 constexpr int kUnshadowedOrder = 6;
@@ -606,7 +608,8 @@ void add_render(CLI::App& app, Session& session) {
     command
         ->add_option("--baked", a.baked,
                      "bake of the model: the reference of --show error\n"
-                     "output of prt bake; needed by --show error without --path-trace, else an error")
+                     "output of prt bake from which the model was made; not a compressed file\n"
+                     "--show error needs either this option or --path-trace; only with --show error")
         ->type_name("FILE")
         ->check(named);
     command
@@ -622,8 +625,8 @@ void add_render(CLI::App& app, Session& session) {
         ->type_name("N")
         ->check(CLI::Range(2, 1 << 20));
     add_exposure(command, a.look.exposure);
-    choice(command, "--tone-map", a.look.tone_map, kToneMaps, "tone curve of .png pictures; needs --show lit",
-           "filmic");
+    choice(command, "--tone-map", a.look.tone_map, kToneMaps,
+           "tone curve of the picture; needs a .png file and --show lit", "filmic");
     command
         ->add_option("--samples", a.view.samples,
                      "samples along each axis of a pixel, 1 to 16: N x N per pixel\n"
