@@ -70,7 +70,13 @@ CLI::Option* add_lights(CLI::App* command, std::vector<Path>& lights, const std:
 
 CLI::Option* add_light(CLI::App* command, Path& light) {
     return command
-        ->add_option("--lights", light, std::string("sky and suns that light the model\n") + kLightFiles)
+        ->add_option(
+            "--lights", light,
+            std::string(
+                "sky and suns that light the model\n"
+                "prt relight of a model without baked lamps needs --lights\n"
+                "light file: at least the order of the model; render without transfer: at least 6\n") +
+                kLightFiles)
         ->check(named)
         ->type_name("FILE")
         ->default_str("black sky, only lamps");
@@ -125,8 +131,7 @@ void add_suns(CLI::App* command, SunCount& suns, const std::string& text, const 
     Suboptions option("--suns", "N|auto", text,
                       [&suns](const std::string& given) { set_count(given, suns); });
     option.detail("N: at most the N strongest suns of an image, 0 to 16; 0: suns are part of the sky")
-        .detail(
-            "auto: up to 4 suns of an image that each reduce the error of light in shadows by 1 % or more");
+        .detail("auto: up to 4 suns of an image; each reduces the error in shadows by 0.01 (1 %) or more");
     if (rays)
         option.whole_number("rays", 1, 1 << 20,
                             fmt::format("rays to each sun, from a vertex (relight) or a pixel (render) [{}]\n"
@@ -156,12 +161,13 @@ void add_lamps(CLI::App* command, LampChoice& lamps) {
 
 void add_lamp_scale(CLI::App* command, double& scale, const std::string& details) {
     command
-        ->add_option("--lamp-scale", scale,
-                     "factor on the intensity of point, spot and directional lights\n"
-                     "X: 1 for lights in watts, 0.00146 (1/683) for lights in candela and lux\n"
-                     "Blender, for example, exports candela and lux\n"
-                     "emissive materials are not scaled" +
-                         details)
+        ->add_option(
+            "--lamp-scale", scale,
+            "factor on the intensity of point, spot and directional lights\n"
+            "X: above 0; 1 for lights in watts, 0.00146 (1/683) for lights in candela and lux\n"
+            "candela and lux are the units of the glTF standard; Blender, for example, exports them\n"
+            "emissive materials are not scaled" +
+                details)
         ->capture_default_str()
         ->check(above_zero());
 }
