@@ -97,7 +97,8 @@ void add_preset(CLI::App* command, SearchOptions& o) {
         ->add_option_function<std::string>(
             "--bits", [&o](const std::string& text) { set_bits(text, o.compress.coding); },
             "sum of the bits of all weights of a vertex, 0 to 240; default: 24\n"
-            "with a goal, the number is chosen and cannot be given; float can be given\n"
+            "or of a texel; with the bits of the cluster index, rounded up to whole 32-bit words\n"
+            "with a goal, the number is chosen, and only float can be given; --preset: only custom\n"
             "float: 32-bit weights, not quantized; shows the error of quantization by comparison\n"
             "  not for lightmaps")
         ->type_name("N|float");
@@ -131,11 +132,12 @@ void add_goals(CLI::App* command, SearchOptions& o) {
     command
         ->add_option_function<std::string>(
             "--max-jump", [&o](const std::string& value) { set_max_jump(value, o.budget); },
-            "limit of contrast jumps at the borders of clusters\n"
-            "X: jump relative to the local brightness, at 99 % of the borders\n"
+            "limit of jumps of the contrast error between clusters\n"
+            "X: difference between both sides of a border, relative to the local brightness; 0.05: 5 %\n"
+            "  99 % of the borders keep it\n"
             "each FILE of --lights keeps it at 24 rotations; a FAMILY of --lights on average\n"
             "none: no limit\n"
-            "needs another goal; default: 0.05 if --max-error is the only goal, else none")
+            "X needs another goal; default: 0.05 if --max-error is the only other goal, else none")
         ->type_name("X|none")
         ->default_str(fmt::format("{} or none", kUnseenJump));
     command
@@ -225,7 +227,9 @@ void add_options(CLI::App* command, CompressArguments& a) {
         ->add_option(
             "--trace", a.reports.trace,
             "log the steps of the compressor to this file; default: no log\n"
-            "a line of JSON for each round, split and merge of clusters, and each trial of the search")
+            "one JSON object per line; event: seeded (initial clusters), clustering_round, split, merge,\n"
+            "  moves (splits and merges kept or reverted), coding_round, trial (one trial of a search)\n"
+            "no lines about probes of a volume; no file is written if the compression fails")
         ->check(named)
         ->type_name("FILE.jsonl");
     add_json(command, a.reports.json);

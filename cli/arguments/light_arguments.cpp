@@ -70,7 +70,13 @@ CLI::Option* add_lights(CLI::App* command, std::vector<Path>& lights, const std:
 
 CLI::Option* add_light(CLI::App* command, Path& light) {
     return command
-        ->add_option("--lights", light, std::string("sky and suns that light the model\n") + kLightFiles)
+        ->add_option(
+            "--lights", light,
+            std::string(
+                "sky and suns that light the model\n"
+                "prt relight of a model without baked lamps needs --lights\n"
+                "light file: at least the order of the model; render without transfer: at least 6\n") +
+                kLightFiles)
         ->check(named)
         ->type_name("FILE")
         ->default_str("black sky, only lamps");
@@ -170,12 +176,13 @@ void add_lamps(CLI::App* command, LampChoice& lamps) {
 
 void add_lamp_scale(CLI::App* command, double& scale, const std::string& details) {
     command
-        ->add_option("--lamp-scale", scale,
-                     "factor on the intensity of point, spot and directional lights\n"
-                     "X above 0: 1 for lights in watts, 0.00146 (1/683) for lights in candela and lux\n"
-                     "Blender, for example, exports candela and lux\n"
-                     "emissive materials are not scaled" +
-                         details)
+        ->add_option(
+            "--lamp-scale", scale,
+            "factor on the intensity of point, spot and directional lights\n"
+            "X: above 0; 1 for lights in watts, 0.00146 (1/683) for lights in candela and lux\n"
+            "candela and lux are the units of the glTF standard; Blender, for example, exports them\n"
+            "emissive materials are not scaled" +
+                details)
         ->capture_default_str()
         ->check(above_zero());
 }

@@ -180,13 +180,16 @@ CLI::Option* add_device(CLI::App* command, TracerChoice& tracer) {
                       [&tracer](const std::string& text) { set_device(text, tracer); })
         .detail("auto: a hardware GPU with Vulkan 1.2 and enough memory if there is one, else the CPU")
         .detail("cpu: the CPU, with Embree")
-        .detail("gpu: a GPU with Vulkan 1.2, or a software driver for Vulkan 1.2")
+        .detail("gpu: a GPU with Vulkan 1.2, else a software driver for Vulkan 1.2; if both lack: an error\n"
+                "auto and gpu: of several GPUs, the one with the largest memory")
         .detail("N: the GPU with this number in the list of prt bench --device list")
-        .detail("NAME: the only GPU whose name in that list contains NAME, in upper or lower case")
+        .detail(
+            "NAME: the only GPU whose name in that list contains NAME; upper or lower case; else an error")
         .key("traversal", names_of(kTraversals), "how a GPU traces rays [auto]",
              [&tracer](const std::string& name) { tracer.traversal = chosen("--device", kTraversals, name); })
         .detail("  auto: device if the GPU has ray queries, else compute")
-        .detail("  compute: a bounding volume hierarchy in compute shaders; device: ray queries of the GPU")
+        .detail("  compute: a bounding volume hierarchy in compute shaders\n"
+                "  device: ray queries of the GPU; if it has none: an error, with --device auto the CPU")
         .add(command)
         ->default_str("auto");
 }

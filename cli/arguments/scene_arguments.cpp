@@ -25,6 +25,8 @@ constexpr Choice<InstanceMode> kInstanceModes[] = {
     {"own", InstanceMode::own, "bake each instance with its own transfer"},
     {"shared", InstanceMode::shared,
      "bake a mesh once; 52 bytes per instance describe the effect of its surroundings\n"
+     "  instances that are mirrored, sheared, skinned or morphed, or have unequal scale: as own\n"
+     "  an error if no mesh has at least two other instances\n"
      "  not with --texels, --volume, --refine, --target-error, --fit surface, --method raster\n"
      "  not with subsurface scattering, lamps (use --lamps none), levels (use --levels ignore)"},
     {"auto", InstanceMode::automatic,
@@ -37,7 +39,7 @@ void add_no_shadow(CLI::App* command, std::vector<std::string>& materials, const
         ->add_option("--no-shadow", materials,
                      "name of a material that casts no shadow; repeat the option for several\n"
                      "for example of a sky dome; an unknown name is an error; default: all cast shadows\n"
-                     "rays pass through it: it also reflects no light onto other surfaces" +
+                     "rays pass through its surfaces, which therefore reflect no light to other surfaces" +
                          details)
         ->allow_extra_args(false)
         ->type_name("MATERIAL");

@@ -284,8 +284,9 @@ void add_outputs(CLI::App* command, AoArguments& a) {
         ->excludes(texels);
     command->add_flag("--bent-normals", a.outputs.bent_normals,
                       "also write bent normals: the mean directions that are not blocked\n"
-                      "in the coordinate frame of the scene; not with --occluders\n"
-                      "vertices: the attribute _BENT_NORMAL; textures: named in extras.prtkit of materials");
+                      "unit vectors n in the coordinate frame of the scene; not with --occluders\n"
+                      "vertices: the attribute _BENT_NORMAL\n"
+                      "--texels: textures of n / 2 + 1/2, extras.prtkit.bentNormalTexture of the materials");
     command
         ->add_flag(
             "--occluders", a.outputs.occluders,

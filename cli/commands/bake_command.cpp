@@ -66,7 +66,8 @@ constexpr Choice<bool> kDenoise[] = {
 constexpr Choice<LampMode> kLampModes[] = {
     {"all", LampMode::all, "direct light and bounces"},
     {"indirect", LampMode::indirect,
-     "bounces only, for renderers that add the direct light of lamps with shadows"},
+     "bounces only, for renderers that add the direct light of lamps with shadows\n"
+     "  black with --bounces 0, except light through a medium"},
     {"none", LampMode::none, "no light of lamps, only light of the sky; radius, rays and group are errors"}};
 
 int parse_bounces(const std::string& text) {
@@ -192,19 +193,23 @@ LampGroup parse_group(const std::string& text) {
 void add_lamps(CLI::App* command, LampOptions& lamps) {
     Suboptions("--lamps", names_of(kLampModes), "part of the light of lamps that is baked",
                [&lamps](const std::string& name) { lamps.mode = chosen("--lamps", kLampModes, name); })
-        .detail("lamps: lights of the scene (KHR_lights_punctual) and emissive materials, at most 64 names")
+        .detail("lamps: lights of the scene (KHR_lights_punctual) and emissive materials\n"
+                "  lamps of the same name and the lamps of a group are one lamp; at most 64 lamps\n"
+                "--instances shared: only none, if the scene contains lamps")
         .detail(explained(kLampModes).substr(1))
         .number("radius", 0, 1e9, "radius of point and spot lights, metres; larger: softer shadows [0]",
                 [&lamps](double metres) { lamps.radius = metres; })
         .whole_number("rays", 1, kMaxRays,
-                      "rays from a vertex, texel or probe to the lamps of one name [64]\n"
+                      "rays from a vertex, texel or probe to the lamps of one name, 1 to 2^24 [64]\n"
                       "  for emissive materials and for lights with radius; other lights get one ray",
                       [&lamps](int rays) { lamps.rays = rays; })
         .key("group", "NAME=PATTERN", "combine lamps whose names match PATTERN into one lamp NAME",
              [&lamps](const std::string& text) { lamps.groups.push_back(parse_group(text)); })
         .repeatable()
-        .detail("  name: of a light or an emissive material; repeat group= for several groups")
-        .detail("  PATTERN: * matches any letters, ? matches one letter; upper and lower case differ")
+        .detail("  repeat group= for several groups; a lamp belongs to the first group that matches\n"
+                "  name: of the node of a light (if it has none, of the light), or of an emissive material")
+        .detail("  PATTERN: whole name; *: any number of characters, ?: one; upper and lower case differ\n"
+                "  errors: a group without lamps, and NAME that is the name of a lamp outside the group")
         .add(command)
         ->default_str("all");
 }

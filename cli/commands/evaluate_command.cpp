@@ -217,7 +217,9 @@ void add_evaluate(CLI::App& app, Session& session) {
         ->needs(lights);
     command->get_option("--suns")->needs(lights);
     add_measures(command, a.measures);
-    add_no_shadow(command, a.no_shadow, "\nthe names that prt bake got; used by --measure budget and volume");
+    add_no_shadow(command, a.no_shadow,
+                  "\nrepeat the --no-shadow options of prt bake, because the bake does not contain them\n"
+                  "no effect without --measure budget or volume");
     add_reading(command, a.reading);
     add_threads(command, a.threads);
     add_reports(command, a.files);

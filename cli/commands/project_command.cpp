@@ -140,7 +140,11 @@ void add_project(CLI::App& app, Session& session) {
         ->required()
         ->check(named);
     add_output(command, a.output, "write the light to this file, .json");
-    command->add_option("--order", a.order, "SH order N of the light, 1 to 10: N² coefficients")
+    command
+        ->add_option("--order", a.order,
+                     "SH order N of the light, 1 to 10: N² coefficients\n"
+                     "at least the order of the models that it lights: prt bake --order, without transfer 6\n"
+                     "light file as input: at most the order of that file")
         ->capture_default_str()
         ->check(CLI::Range(1, kMaxOrder));
     add_suns(command, a.suns,

@@ -219,9 +219,12 @@ void add_relight(CLI::App& app, Session& session) {
         ->required()
         ->check(named);
     add_light(command, a.environment);
-    add_output(command, a.output, "write the model with light as vertex colors to this .glb");
+    add_output(command, a.output,
+               "write the model with light as vertex colors to this .glb\n"
+               "the light replaces existing vertex colors; the file contains no transfer");
     add_suns(command, a.suns,
              std::string("number of suns of --lights with sharp shadows, traced by rays\n"
+                         "needs --lights\n"
                          "after prt compress --combine-direct: only 0, and auto acts as 0\n") +
                  kSunsOfLightFiles,
              "auto", &a.rays);

@@ -640,6 +640,8 @@ void add_render(CLI::App& app, Session& session) {
     add_light_options(command, a.light_options);
     add_suns(command, a.lights.suns,
              std::string("number of suns of --lights that are drawn with sharp shadows\n"
+                         "needs --lights; no effect on --show clusters and ao, and on path-traced pictures\n"
+                         "more than 4 suns: drawn by the CPU; an error with --device gpu\n"
                          "after prt compress --combine-direct or prt lobes: only 0, and auto acts as 0\n") +
                  kSunsOfLightFiles,
              "auto", &a.lights.sun_rays);

@@ -218,12 +218,16 @@ void add_shader(CLI::App& app, Session& session) {
     add_output(command, a.output,
                "write the GLSL source to this file\n"
                "text, with any suffix, as .vert; suffixes of other formats, as .glb or .json, are an error");
-    choice(command, "--language", a.language, kLanguages, "shading language of the written source",
+    choice(command, "--language", a.language, kLanguages,
+           "shading language of the written source\n"
+           "compute and volume-compute: only glsl450 and vulkan\n"
+           "volume, occluders and lobes: no effect, the same functions for all languages",
            "glsl450");
     choice(command, "--constants", a.constants, kConstants,
            "GPU storage of the constants\n"
-           "constants: values that your program uploads for each lighting\n"
-           "only for the stages vertex, fragment and instances; default: buffer if the language has it",
+           "constants: 16-byte vectors that your program uploads for each lighting\n"
+           "no effect on stages except vertex, fragment, instances, and on files with only a volume\n"
+           "default: buffer if the language has it",
            "buffer, else texture");
     choice(command, "--stage", a.stage, kStages, "shader to write", "vertex")->type_name("STAGE");
     add_reading(command, a.reading);
