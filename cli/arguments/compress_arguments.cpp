@@ -159,6 +159,56 @@ void add_goals(CLI::App* command, SearchOptions& o) {
         ->check(above_zero());
 }
 
+/// Adds options of the written file.
+void add_writing(CLI::App* command, CompressArguments& a) {
+    command->add_flag(
+        "--combine-direct", a.writing.whole,
+        "merge direct and indirect transfer: fewer bytes, no sharp sun shadows\n"
+        "suns become part of the sky, with soft shadows only; lamps and volumes are not merged\n"
+        "default: separate, so that a renderer can draw sharp shadows of suns");
+    command
+        ->add_option(
+            "--fallback", a.writing.fallback,
+            std::string(
+                "add vertex colors, lit by this file, for viewers without PRT support\n"
+                "not for lightmaps and shared instances; default: no vertex colors are added\n"
+                "exposure is automatic; suns are part of the sky; lamps are as bright as in the scene\n"
+                "materials become unlit; emissive, glass and unlit ones remain as they are\n"
+                "programs that read the transfer restore the original colors and materials\n") +
+                kLightFiles)
+        ->check(named)
+        ->type_name("FILE");
+    command->add_flag("--reorder", a.writing.reorder,
+                      "store the vertices of a cluster together; default: order of the bake\n"
+                      "changes the order inside each mesh, not the picture; not for lightmaps");
+    command->add_flag(
+        "--meshopt", a.writing.meshopt,
+        "compress the file with EXT_meshopt_compression; default: off\n"
+        "lossless, for vertices and triangles; programs that read the file need this extension\n"
+        "not for images, and not for the weights of lightmaps and volumes\n"
+        "also entropy-codes the weights of vertices if this is smaller, not with --bits float\n"
+        "the bytes in GPU memory remain the same");
+}
+
+/// Adds --volume.
+void add_probe_size(CLI::App* command, CompressArguments& a) {
+    Suboptions("--volume", "",
+               "size of the probes; needs a bake with a volume\n"
+               "goals, --preset and the other sizes have no effect on probes",
+               nullptr)
+        .key("bytes", "N",
+             "bytes per probe: 4, 8, 12, 16, 20, 24 or 28 [16]\n"
+             "  without the bases, and without 6 bytes per probe of visibility distances",
+             [&a](const std::string& text) {
+                 const std::optional<int> bytes = whole_number(text);
+                 if (!bytes || *bytes < 4 || *bytes > 28 || *bytes % 4 != 0)
+                     throw CLI::ValidationError("--volume",
+                                                "bytes=" + text + ": expected a multiple of 4 from 4 to 28");
+                 a.volume_bytes = *bytes;
+             })
+        .add(command);
+}
+
 } // namespace
 
 void add_options(CLI::App* command, CompressArguments& a) {
@@ -178,48 +228,8 @@ void add_options(CLI::App* command, CompressArguments& a) {
             "no effect on the probes of a volume")
         ->capture_default_str()
         ->check(real_in(0, kMaxSeamWeight));
-    command->add_flag(
-        "--combine-direct", a.writing.whole,
-        "merge direct and indirect transfer: fewer bytes, no sharp sun shadows\n"
-        "suns become part of the sky, with soft shadows only; lamps and volumes are not merged\n"
-        "default: separate, so that a renderer can draw sharp shadows of suns");
-    command
-        ->add_option(
-            "--fallback", a.writing.fallback,
-            std::string(
-                "add vertex colors, lit by this file, for viewers without PRT support\n"
-                "not for lightmaps and shared instances; default: no vertex colors are added\n"
-                "exposure is automatic; suns are part of the sky; lamps are as bright as in the scene\n"
-                "materials become unlit; emissive, glass and unlit ones remain as they are\n"
-                "programs that read the transfer restore the original colors and materials\n") +
-                kLightFiles)
-        ->check(named)
-        ->type_name("FILE");
-    Suboptions("--volume", "",
-               "size of the probes; needs a bake with a volume\n"
-               "goals, --preset and the other sizes have no effect on probes",
-               nullptr)
-        .key("bytes", "N",
-             "bytes per probe: 4, 8, 12, 16, 20, 24 or 28 [16]\n"
-             "  without the bases, and without 6 bytes per probe of visibility distances",
-             [&a](const std::string& text) {
-                 const std::optional<int> bytes = whole_number(text);
-                 if (!bytes || *bytes < 4 || *bytes > 28 || *bytes % 4 != 0)
-                     throw CLI::ValidationError("--volume",
-                                                "bytes=" + text + ": expected a multiple of 4 from 4 to 28");
-                 a.volume_bytes = *bytes;
-             })
-        .add(command);
-    command->add_flag("--reorder", a.writing.reorder,
-                      "store the vertices of a cluster together; default: order of the bake\n"
-                      "changes the order inside each mesh, not the picture; not for lightmaps");
-    command->add_flag(
-        "--meshopt", a.writing.meshopt,
-        "compress the file with EXT_meshopt_compression; default: off\n"
-        "lossless, for vertices and triangles; programs that read the file need this extension\n"
-        "not for images, and not for the weights of lightmaps and volumes\n"
-        "also entropy-codes the weights of vertices if this is smaller, not with --bits float\n"
-        "the bytes in GPU memory remain the same");
+    add_writing(command, a);
+    add_probe_size(command, a);
     add_seed(command, a.options.compress.seed);
     add_reading(command, a.reading);
     add_threads(command, a.options.compress.threads);

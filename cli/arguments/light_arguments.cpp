@@ -58,6 +58,42 @@ void set_count(const std::string& text, SunCount& suns) {
         throw CLI::ValidationError("--suns", "'" + text + "' is neither auto nor a number in 0..16");
 }
 
+/// Adds options for reading images.
+void add_image_options(CLI::App* command, EnvironmentOptions& options) {
+    command
+        ->add_option_function<std::string>(
+            "--env-layout",
+            [&options](const std::string& name) {
+                const MapLayout layout = chosen("--env-layout", kLayouts, name);
+                options.layout = layout.layout;
+                options.center = layout.center;
+            },
+            "arrangement of directions in the environment image\n"
+            "default: the attribute of an OpenEXR file; else by width:height, 2:1: lat-long, 1:6: cube,\n"
+            "  6:1 (row), and 4:3 or 3:4 (cross) with one color outside the faces: cube-faces\n"
+            "  other images need this option\n"
+            "six files: the name sky_{face}.hdr reads sky_px.hdr, sky_nx.hdr, and py, ny, pz, nz\n"
+            "  default: cube-faces\n"
+            "needs a light from a file; no effect on light files (.json)" +
+                explained(kLayouts))
+        ->type_name("LAYOUT")
+        ->default_str("by the file");
+    command
+        ->add_option(
+            "--layer", options.layer,
+            "name of the layer or part of an OpenEXR image to read\n"
+            "layer: the channels NAME.R, NAME.G and NAME.B, or NAME.Y\n"
+            "part: the channels R, G and B, or Y, of the part with this name\n"
+            "default: the channels without a layer name in the first part, else the only layer or part\n"
+            "  other OpenEXR images need this option\n"
+            "other image formats: an error; light files ignore it; needs a light from a file")
+        ->default_str("by the file");
+    choice(command, "--bad-pixels", options.bad_pixels, kBadPixels,
+           "handling of negative, infinite and NaN pixels of an image\n"
+           "needs a light from a file; light files ignore it",
+           "error");
+}
+
 } // namespace
 
 CLI::Option* add_lights(CLI::App* command, std::vector<Path>& lights, const std::string& text) {
@@ -97,38 +133,7 @@ void add_light_options(CLI::App* command, LightOptions& options) {
                      "needs a light from a file: image or light file")
         ->capture_default_str()
         ->check(real_in(-1e6, 1e6));
-    command
-        ->add_option_function<std::string>(
-            "--env-layout",
-            [&options](const std::string& name) {
-                const MapLayout layout = chosen("--env-layout", kLayouts, name);
-                options.environment.layout = layout.layout;
-                options.environment.center = layout.center;
-            },
-            "arrangement of directions in the environment image\n"
-            "default: the attribute of an OpenEXR file; else by width:height, 2:1: lat-long, 1:6: cube,\n"
-            "  6:1 (row), and 4:3 or 3:4 (cross) with one color outside the faces: cube-faces\n"
-            "  other images need this option\n"
-            "six files: the name sky_{face}.hdr reads sky_px.hdr, sky_nx.hdr, and py, ny, pz, nz\n"
-            "  default: cube-faces\n"
-            "needs a light from a file; no effect on light files (.json)" +
-                explained(kLayouts))
-        ->type_name("LAYOUT")
-        ->default_str("by the file");
-    command
-        ->add_option(
-            "--layer", options.environment.layer,
-            "name of the layer or part of an OpenEXR image to read\n"
-            "layer: the channels NAME.R, NAME.G and NAME.B, or NAME.Y\n"
-            "part: the channels R, G and B, or Y, of the part with this name\n"
-            "default: the channels without a layer name in the first part, else the only layer or part\n"
-            "  other OpenEXR images need this option\n"
-            "other image formats: an error; light files ignore it; needs a light from a file")
-        ->default_str("by the file");
-    choice(command, "--bad-pixels", options.environment.bad_pixels, kBadPixels,
-           "handling of negative, infinite and NaN pixels of an image\n"
-           "needs a light from a file; light files ignore it",
-           "error");
+    add_image_options(command, options.environment);
 }
 
 void check_light_options(const CLI::App& command, bool has_lights) {

@@ -133,30 +133,21 @@ MediumChoice parse_medium(const std::string& text) {
     return choice;
 }
 
-void add_transport(CLI::App* command, BakeOptions& options) {
-    command
-        ->add_option_function<std::string>(
-            "--bounces", [&options](const std::string& text) { options.bounces = parse_bounces(text); },
-            "number of bounces between surfaces; 0: direct light only\n"
-            "N: 0 to 10000; inf: all bounces, until the remaining light is negligible\n"
-            "  inf is an error for lamps in a closed room that reflects all light (base color 1)\n"
-            "only 0 with --method raster")
-        ->type_name("N|inf")
-        ->default_str("0");
+void add_subsurface(CLI::App* command, SubsurfaceOptions& subsurface) {
     command
         ->add_option_function<std::vector<std::string>>(
             "--subsurface",
-            [&options](const std::vector<std::string>& texts) {
+            [&subsurface](const std::vector<std::string>& texts) {
                 for (const std::string& text : texts) {
                     MediumChoice choice = parse_medium(text);
-                    if (std::ranges::any_of(options.subsurface.media, [&](const MediumChoice& other) {
+                    if (std::ranges::any_of(subsurface.media, [&](const MediumChoice& other) {
                             return other.material == choice.material;
                         }))
                         throw CLI::ValidationError("--subsurface",
                                                    choice.material.empty()
                                                        ? "all materials have two media"
                                                        : "'" + choice.material + "' has two media");
-                    options.subsurface.media.push_back(std::move(choice));
+                    subsurface.media.push_back(std::move(choice));
                 }
             },
             "add subsurface scattering; without MATERIAL=: to all materials\n"
@@ -174,11 +165,24 @@ void add_transport(CLI::App* command, BakeOptions& options) {
         ->allow_extra_args(false) // one each time, so that the scene may follow
         ->type_name("[MATERIAL=]MEDIUM");
     command
-        ->add_option("--metres-per-unit", options.subsurface.metres_per_unit,
+        ->add_option("--metres-per-unit", subsurface.metres_per_unit,
                      "length of one unit of the scene in metres; needs --subsurface\n"
                      "1e-9 to 1e9; also applied to KHR_materials_volume, not to lamps and distances")
         ->capture_default_str()
         ->check(real_in(1e-9, 1e9));
+}
+
+void add_transport(CLI::App* command, BakeOptions& options) {
+    command
+        ->add_option_function<std::string>(
+            "--bounces", [&options](const std::string& text) { options.bounces = parse_bounces(text); },
+            "number of bounces between surfaces; 0: direct light only\n"
+            "N: 0 to 10000; inf: all bounces, until the remaining light is negligible\n"
+            "  inf is an error for lamps in a closed room that reflects all light (base color 1)\n"
+            "only 0 with --method raster")
+        ->type_name("N|inf")
+        ->default_str("0");
+    add_subsurface(command, options.subsurface);
     add_enclosed(command, options.repairs.inside);
 }
 

@@ -44,6 +44,36 @@ void run(MakeArguments a, Session& session) {
     publish(report, a.files, session);
 }
 
+/// Adds options of the goal.
+void add_goals(CLI::App* command, MakeGoal& goal) {
+    CLI::Option* error = command->add_option("--max-error", goal.max_error, kMaxErrorText)
+                             ->check(above_zero())
+                             ->default_str("0.03");
+    command
+        ->add_option("--bytes-per-vertex", goal.bytes_per_vertex,
+                     "find the minimum error with at most X bytes per vertex, with bases\n"
+                     "X: the bytes of its 32-bit words, plus the bytes of all bases / number of vertices\n"
+                     "  vertices: those of the written model, to which prt make can add some\n"
+                     "if no result has at most X bytes, an error\n"
+                     "order, bounces, rays and added vertices are chosen as for --max-error 0.01\n"
+                     "replaces the goal --max-error and cannot be combined with it")
+        ->check(above_zero())
+        ->excludes(error);
+    command
+        ->add_option("--seconds", goal.seconds,
+                     "limit the time to about X seconds by fewer rays and trials\n"
+                     "noise increases, and a given --max-error may fail\n"
+                     "at least 64 rays per vertex and one compression: large scenes can take longer\n"
+                     "default: no limit")
+        ->check(above_zero());
+    command
+        ->add_flag(
+            "--best-effort", goal.best_effort,
+            "write the closest result if --max-error is not met; default: error\n"
+            "needs --max-error; without it and --bytes-per-vertex, the closest result is always written")
+        ->needs(error);
+}
+
 } // namespace
 
 void add_make(CLI::App& app, Session& session) {
@@ -66,32 +96,7 @@ void add_make(CLI::App& app, Session& session) {
                "up to 4 suns of an image and all suns of a light file are separate: renderers add their\n"
                "  direct light with shadow maps; --max-error includes only their light after bounces")
         ->required();
-    CLI::Option* error = command->add_option("--max-error", r.goal.max_error, kMaxErrorText)
-                             ->check(above_zero())
-                             ->default_str("0.03");
-    command
-        ->add_option("--bytes-per-vertex", r.goal.bytes_per_vertex,
-                     "find the minimum error with at most X bytes per vertex, with bases\n"
-                     "X: the bytes of its 32-bit words, plus the bytes of all bases / number of vertices\n"
-                     "  vertices: those of the written model, to which prt make can add some\n"
-                     "if no result has at most X bytes, an error\n"
-                     "order, bounces, rays and added vertices are chosen as for --max-error 0.01\n"
-                     "replaces the goal --max-error and cannot be combined with it")
-        ->check(above_zero())
-        ->excludes(error);
-    command
-        ->add_option("--seconds", r.goal.seconds,
-                     "limit the time to about X seconds by fewer rays and trials\n"
-                     "noise increases, and a given --max-error may fail\n"
-                     "at least 64 rays per vertex and one compression: large scenes can take longer\n"
-                     "default: no limit")
-        ->check(above_zero());
-    command
-        ->add_flag(
-            "--best-effort", r.goal.best_effort,
-            "write the closest result if --max-error is not met; default: error\n"
-            "needs --max-error; without it and --bytes-per-vertex, the closest result is always written")
-        ->needs(error);
+    add_goals(command, r.goal);
     command
         ->add_option("--keep-bake", r.baked,
                      "also write the bake before compression to this file; default: no file")

@@ -577,29 +577,8 @@ void run(RenderArguments a, Session& session) {
     publish(report_of(a, picture, rendered, context.get()), a.json, session);
 }
 
-} // namespace
-
-void add_render(CLI::App& app, Session& session) {
-    CLI::App* command = app.add_subcommand("render", "Draw a picture of a file under a light");
-    auto& a = arguments_for<RenderArguments>(command, [command, &session](const RenderArguments& given) {
-        check_light_options(*command, !given.environment.empty());
-        check_exposed(given, *command);
-        run(given, session);
-    });
-    command
-        ->add_option("model", a.model,
-                     "model to draw: a scene, or output of prt bake, compress or lobes\n"
-                     "                              .gltf or .glb; a scene without transfer is lit by the "
-                     "sky without\n"
-                     "                              shadows and has no lamps, except with --path-trace")
-        ->required()
-        ->check(named);
-    add_light(command, a.environment);
-    add_output(command, a.output,
-               "write the picture to this file, .png or .exr\n"
-               ".png: 8 bits; with --show lit exposed and with --tone-map, else sRGB\n"
-               ".exr: float32, linear values without exposure and tone curve");
-    add_view(command, a.view);
+/// Adds options of what is drawn, and by which processor.
+void add_shown(CLI::App* command, RenderArguments& a) {
     choice(command, "--device", a.backend, kDevices,
            "processor that draws the picture\n"
            "path tracing always runs on the CPU",
@@ -624,6 +603,10 @@ void add_render(CLI::App& app, Session& session) {
             "--exposure auto is measured from the transfer if the model has transfer")
         ->type_name("N")
         ->check(CLI::Range(2, 1 << 20));
+}
+
+/// Adds options of exposure, sampling and background.
+void add_look(CLI::App* command, RenderArguments& a) {
     add_exposure(command, a.look.exposure);
     choice(command, "--tone-map", a.look.tone_map, kToneMaps,
            "tone curve of the picture; needs a .png file and --show lit", "filmic");
@@ -637,6 +620,33 @@ void add_render(CLI::App& app, Session& session) {
         "!--no-background", a.look.background,
         "draw a black background; default: the image of --lights\n"
         "always black without --lights, with a light file, and with --show clusters, error and ao");
+}
+
+} // namespace
+
+void add_render(CLI::App& app, Session& session) {
+    CLI::App* command = app.add_subcommand("render", "Draw a picture of a file under a light");
+    auto& a = arguments_for<RenderArguments>(command, [command, &session](const RenderArguments& given) {
+        check_light_options(*command, !given.environment.empty());
+        check_exposed(given, *command);
+        run(given, session);
+    });
+    command
+        ->add_option("model", a.model,
+                     "model to draw: a scene, or output of prt bake, compress or lobes\n"
+                     "                              .gltf or .glb; a scene without transfer is lit by the "
+                     "sky without\n"
+                     "                              shadows and has no lamps, except with --path-trace")
+        ->required()
+        ->check(named);
+    add_light(command, a.environment);
+    add_output(command, a.output,
+               "write the picture to this file, .png or .exr\n"
+               ".png: 8 bits; with --show lit exposed and with --tone-map, else sRGB\n"
+               ".exr: float32, linear values without exposure and tone curve");
+    add_view(command, a.view);
+    add_shown(command, a);
+    add_look(command, a);
     add_light_options(command, a.light_options);
     add_suns(command, a.lights.suns,
              std::string("number of suns of --lights that are drawn with sharp shadows\n"
