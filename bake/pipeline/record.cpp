@@ -2,6 +2,7 @@
 
 #include "bake/pipeline/record.h"
 
+#include "prt/core/error.h"
 #include "runtime/support/counted.h"
 
 #include <fmt/core.h>
@@ -78,7 +79,17 @@ double float16_rounding_error(const Transfer& transfer, std::span<const float> a
     return norm > 0 ? std::sqrt(error / norm) : 0;
 }
 
-TransferStorage storage_for(const StorageErrors& errors, std::vector<std::string>& notices) {
+void check_float16(double rounding_error) {
+    if (!std::isfinite(rounding_error))
+        throw Error("float16 cannot store coefficients above 65504; store the transfer as float32");
+}
+
+TransferStorage storage_for(const std::optional<TransferStorage>& asked, const StorageErrors& errors,
+                            std::vector<std::string>& notices) {
+    if (asked == TransferStorage::float16)
+        check_float16(errors.rounding);
+    if (asked)
+        return *asked;
     if (!(errors.rounding < 0.1 * errors.sampling))
         return TransferStorage::float32;
     notices.push_back(fmt::format(
@@ -95,10 +106,8 @@ BakeResult record(const BakePlan& plan, const Tracer& tracer, const DirectLight&
     result.statistics.device = tracer.device();
     BakedTransfer& baked = result.baked;
     BakeStatistics& s = result.statistics;
-    baked.storage =
-        plan.options.memory.storage
-            ? *plan.options.memory.storage
-            : storage_for({.rounding = s.rounding_error, .sampling = s.sampling_error}, s.notices);
+    baked.storage = storage_for(plan.options.memory.storage,
+                                {.rounding = s.rounding_error, .sampling = s.sampling_error}, s.notices);
     baked.record = {.bounces = exit.bounces,
                     .endless = plan.bounces == kEndlessBounces,
                     .rays = direct.mean_rays,

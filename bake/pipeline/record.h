@@ -6,6 +6,11 @@
 #include "bake/pipeline/light_transport.h"
 #include "prt/bake/bake.h"
 
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
 namespace prt {
 
 /// Receivers of the scene that are sealed in, and their repair.
@@ -28,7 +33,11 @@ struct StorageErrors {
     double rounding, sampling; ///< error of rounding to float16; error of the rays
 };
 
-/// Selects float16 if its rounding is negligible against the noise, and adds a notice.
-TransferStorage storage_for(const StorageErrors& errors, std::vector<std::string>& notices);
+/// Returns `asked`, or else float16 if its rounding is negligible against the noise, with a notice. Throws
+/// `Error` if float16 is asked and some coefficient exceeds its range.
+TransferStorage storage_for(const std::optional<TransferStorage>& asked, const StorageErrors& errors,
+                            std::vector<std::string>& notices);
+/// Throws `Error` for an infinite error of rounding to float16.
+void check_float16(double rounding_error);
 
 } // namespace prt

@@ -2,6 +2,7 @@
 
 #include "cli/commands/commands.h"
 
+#include "bake/reference/scene_lamps.h"
 #include "cli/arguments/light_arguments.h"
 #include "cli/arguments/options.h"
 #include "cli/arguments/scene_arguments.h"
@@ -384,6 +385,9 @@ void run_vertices(const BakeArguments& a, GltfDocument& document, Scene& scene, 
 void run_texels(const BakeArguments& a, GltfDocument& document, Scene& scene, const TexelRoom& room,
                 Session& session) {
     const Finer finer = load_finer(a.texels, a.reading, scene);
+    if (finer.scene && a.options.lamps.mode != LampMode::none && !lamps_of(scene).empty())
+        print_notices(a.scene.string(),
+                      {"its lamps are ignored: with --high-poly, the lamps of that file are baked"});
     leave_out_shadows(scene, a.no_shadow);
     const LightmapBake baked = about(a.scene, [&] {
         ProgressBar bar = session.progress_bar("baking");
@@ -445,6 +449,9 @@ void check_arguments(const BakeArguments& a) {
             "--refine and --texels cannot be combined: --refine splits triangles for light at vertices");
     if (a.finer.max_vertices > 0 && !a.finer.refine)
         throw CLI::ValidationError("--refine", "needs an error, as --refine 0.02,vertices=50000");
+    if ((a.texels.given() || a.volume.given()) &&
+        (a.options.tracer.method == BakeMethod::raster || a.options.target_error))
+        throw Error("--method raster and --target-error do not support --texels and --volume");
     const LampOptions usual;
     if (a.options.lamps.mode == LampMode::none &&
         (!a.options.lamps.groups.empty() || a.options.lamps.radius != usual.radius ||

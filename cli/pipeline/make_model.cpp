@@ -9,6 +9,7 @@
 #include "cli/pipeline/measure_budget.h"
 #include "cli/pipeline/no_shadow.h"
 #include "cli/pipeline/shell_word.h"
+#include "cli/pipeline/solid_materials.h"
 #include "compress/metric/jumps.h"
 #include "prt/bake/refine.h"
 #include "prt/compress/search.h"
@@ -67,6 +68,10 @@ public:
         : r_(request), host_(host), document_(load_gltf(request.scene, request.reading)),
           scene_(extract_scene(document_)), lights_(std::move(lights)) {
         send(host_.notify, r_.scene, scene_.notices);
+        std::vector<bool> solid;
+        for (const Material& material : scene_.materials)
+            solid.push_back(medium_of(material).has_value());
+        check_no_media(scene_, solid);
         leave_out_shadows(scene_, r_.no_shadow);
         separate();
     }

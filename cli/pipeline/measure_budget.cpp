@@ -16,16 +16,6 @@
 namespace prt::pipeline {
 namespace {
 
-/// Paths do not enter media.
-void check_no_media(const SceneFile& baked) {
-    const std::vector<bool> solid = solid_materials(baked);
-    for (const Primitive& primitive : baked.scene.primitives)
-        if (solid[primitive.material])
-            throw Error("material '" + baked.scene.materials[primitive.material].name +
-                        "' has no direct light: its light passes through a medium, which the path tracer of "
-                        "an error budget does not support, or no light reaches it");
-}
-
 /// Repeats a bake with another seed.
 Transfer repeat(const SceneFile& baked, int threads, const Progress& progress) {
     if (!baked.lightmap)
@@ -74,7 +64,7 @@ void measure(const BudgetRequest& request, const SceneFile& baked, const SceneFi
 
 void add_budget(BudgetRequest request, SceneFile& baked, Report& report, const Host& host) {
     about(request.baked, [&] {
-        check_no_media(baked);
+        check_no_media(baked.scene, solid_materials(baked));
         leave_out_shadows(baked.scene, request.no_shadow);
     });
     std::optional<SceneFile> shipped;

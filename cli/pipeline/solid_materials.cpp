@@ -3,6 +3,7 @@
 #include "cli/pipeline/solid_materials.h"
 
 #include "prt/bake/bake_options.h"
+#include "prt/core/error.h"
 
 #include <algorithm>
 
@@ -40,6 +41,14 @@ std::vector<bool> solid_materials(const SceneFile& model) {
     for (std::size_t m = 0; m < solid.size(); ++m)
         solid[m] = solid[m] || medium_of(scene.materials[m]);
     return solid;
+}
+
+void check_no_media(const Scene& scene, const std::vector<bool>& solid) {
+    for (const Primitive& primitive : scene.primitives)
+        if (solid[primitive.material])
+            throw Error("material '" + scene.materials[primitive.material].name +
+                        "' has no direct light: its light passes through a medium, which the path tracer of "
+                        "an error budget does not support, or no light reaches it");
 }
 
 } // namespace prt::pipeline

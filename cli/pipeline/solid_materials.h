@@ -12,4 +12,8 @@ namespace prt::pipeline {
 /// does not contain this information, and texels have no media.
 std::vector<bool> solid_materials(const SceneFile& model);
 
+/// Throws `Error` if `scene` shows one of the `solid` materials, because the path tracer does not enter
+/// media.
+void check_no_media(const Scene& scene, const std::vector<bool>& solid);
+
 } // namespace prt::pipeline

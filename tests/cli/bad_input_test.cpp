@@ -177,6 +177,18 @@ TEST_F(BadInput, RasterWithBouncesOrOnTheCpu) {
     refuse_bake(scene, {"--method", "raster", "--fit", "surface"});
 }
 
+TEST_F(BadInput, CoefficientsAboveTheRangeOfFloat16) {
+    GlbFile file = triangle_file(); // faces +Z; the light shines along -Z
+    file.json["extensionsUsed"].push_back("KHR_lights_punctual");
+    file.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "directional"}, {"intensity", 1e6}}};
+    file.json["nodes"].push_back({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    file.json["scenes"][0]["nodes"].push_back(1);
+    file.write(folder / "sun.glb");
+    refuse_bake(folder / "sun.glb", {"--rays", "16", "--storage", "float16"});
+    EXPECT_EQ(prt({"bake", (folder / "sun.glb").string(), "-o", out, "--rays", "16"}).status, 0);
+}
+
 TEST_F(BadInput, SettingsOfSharedTransferWithoutSharing) {
     refuse_bake(good(), {"--instances", "own,error=0.1"});
     refuse_bake(good(), {"--instances", "samples=64"});

@@ -101,6 +101,18 @@ TEST_F(Pipeline, RejectsBudgetsBeyondPathTracing) {
     EXPECT_EQ(std::count(medium.err.begin(), medium.err.end(), '\n'), 1) << medium.err;
     EXPECT_EQ(prt({"evaluate", at("b.glb"), "--measure", "budget", "--rotations", "4"}).status, 2);
     EXPECT_EQ(prt({"make", at("t.glb"), "-o", at("s.glb")}).status, 2); // lights are required
+    GlbFile wax = triangle_file();
+    wax.json["materials"] = {
+        {{"name", "wax"},
+         {"extensions",
+          {{"KHR_materials_diffuse_transmission", {{"diffuseTransmissionFactor", 1}}},
+           {"KHR_materials_volume", {{"thicknessFactor", 1}, {"attenuationDistance", 0.01}}}}}}};
+    wax.json["meshes"][0]["primitives"][0]["material"] = 0;
+    wax.write(folder / "wax.glb");
+    write_exr(folder / "sky.exr", {2, 1, std::vector<glm::vec3>(2, glm::vec3(1))});
+    const Outcome made = prt({"make", at("wax.glb"), "-o", at("s.glb"), "--lights", at("sky.exr")});
+    EXPECT_EQ(made.status, 1);
+    EXPECT_NE(made.err.find("'wax'"), std::string::npos) << made.err;
 }
 
 } // namespace

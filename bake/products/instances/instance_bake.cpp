@@ -146,9 +146,8 @@ private:
         for (const SharedMeshBake& mesh : meshes_)
             sampling = std::max(sampling, mesh.sampling_error);
         const double rounding = float16_rounding_error(baked.transfer, receiver_areas(scene_.stored));
-        baked.storage = options_.memory.storage
-                            ? *options_.memory.storage
-                            : storage_for({.rounding = rounding, .sampling = sampling}, statistics.notices);
+        baked.storage = storage_for(options_.memory.storage, {.rounding = rounding, .sampling = sampling},
+                                    statistics.notices);
         baked.record = {.bounces = statistics.bounces,
                         .endless = options_.bounces == kEndlessBounces,
                         .rays = options_.rays,

@@ -297,8 +297,8 @@ private:
                         .receivers = receivers_id(scene_),
                         .sampling_error = s.sampling_error};
         s.rounding_error = float16_rounding_error(baked.transfer, map.areas);
-        baked.storage = options_.memory.storage.value_or(
-            storage_for({.rounding = s.rounding_error, .sampling = s.sampling_error}, s.notices));
+        baked.storage = storage_for(options_.memory.storage,
+                                    {.rounding = s.rounding_error, .sampling = s.sampling_error}, s.notices);
         s.texels.all = map.layout.texels();
         s.texels.receivers = map.texels.size();
         s.device = tracer.device();

@@ -359,6 +359,8 @@ private:
                         .method = tracer_->method(),
                         .backend = tracer_->backend(),
                         .receivers = receivers_id(scene_)};
+        if (options_.memory.storage == TransferStorage::float16)
+            check_float16(s.rounding_error);
         baked.storage = options_.memory.storage.value_or(s.rounding_error < 1e-3 ? TransferStorage::float16
                                                                                  : TransferStorage::float32);
         s.rays += tracer.rays();
