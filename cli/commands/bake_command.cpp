@@ -539,7 +539,7 @@ void add_bake(CLI::App& app, Session& session) {
     add_back_sides(command, a.back_sides,
                    "\nalways shared if --instances shares transfer, and for --texels without unwrap");
     add_texels(command, a.texels,
-               "bake lightmaps of N x N texels, or N texels per metre, instead of vertices\n"
+               "bake lightmaps instead of vertices: N x N texels, or N per metre\n"
                "not with --fit, --refine, --target-error, --method raster and --instances shared\n"
                "not for materials with subsurface scattering or diffuse transmission")
         ->excludes(command->get_option("--fit")); // texels measure light at their centers
