@@ -1,6 +1,7 @@
 // Tests prt make and prt evaluate --measure budget, from the command line to the file.
 
 #include "pipeline.h"
+#include "prt/image/image_file.h"
 #include "support/glb_file.h"
 
 #include <algorithm>
