@@ -107,7 +107,7 @@ void add_reading(CLI::App* command, ReadingOptions& reading, double* limit) {
                 if (limit)
                     *limit = static_cast<double>(bytes);
             },
-            limit ? "limit of memory for the scene and for the bake, as 8GB\n"
+            limit ? "limit of memory for scene and bake, as 8GB\n"
                     "the program stops if one of them needs more\n"
                     "SIZE: a whole number above 0; 1 GB: 10^9 bytes, 1 GiB: 2^30 bytes; no unit: bytes\n"
                     "scene: geometry with all instances and morph targets, without textures\n"
