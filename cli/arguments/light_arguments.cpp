@@ -36,7 +36,8 @@ constexpr Choice<MapLayout> kLayouts[] = {
      "faces +x -x +y -y +z -z in a column; edge texels are centered on cube edges (OpenEXR)"},
     {"cube-faces",
      {EnvironmentLayout::cube_faces},
-     "these faces in a column, row or cross; faces share no texels (OpenGL, Direct3D)"},
+     "these faces in a column, row or cross; faces share no texels (OpenGL, Direct3D)\n"
+     "  a cross must have one color outside the faces, also with this option"},
     {"angular",
      {EnvironmentLayout::angular},
      "1:1, light probe (Debevec): all directions in a circle; the center shows -z"}};
@@ -211,7 +212,8 @@ void add_metric(CLI::App* command, MetricArguments& arguments) {
             "lights under which the error is minimized" + explained(kMetrics) + "\n" + kLightFiles +
                 "\nlight file: at least of the order of the bake; repeat the option for several files\n"
                 "a family cannot be combined with other lights\n"
-                "outdoor, indoor, day and FILE: mean of all rotations about +Y; lamps of the bake also count")
+                "outdoor, indoor, day and FILE: mean of all rotations about +Y\n"
+                "with every FAMILY and FILE, the error of the lamps of the bake is also minimized")
         ->allow_extra_args(false) // one each time, so that the bake may follow
         ->check(named)
         ->type_name("FAMILY|FILE")

@@ -187,10 +187,11 @@ void add_evaluate(CLI::App& app, Session& session) {
         ->required()
         ->check(named);
     command
-        ->add_option("shipped", a.shipped,
-                     "compressed file of the first file, or another bake to compare\n"
-                     "                              other bake: same vertices or texels, same order\n"
-                     "                              not needed with --measure")
+        ->add_option(
+            "shipped", a.shipped,
+            "compressed file of the first file, or another bake to compare\n"
+            "                              other bake: same vertices or texels, and same SH order (--order)\n"
+            "                              not needed with --measure")
         ->check(named);
     CLI::Option* lights =
         add_lights(

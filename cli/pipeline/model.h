@@ -19,7 +19,7 @@ namespace prt::pipeline {
 
 /// Options for reading lighting, common to all commands.
 struct LightOptions {
-    EnvironmentOptions environment;
+    EnvironmentOptions environment = {};
     Window window = Window::none;
     double rotation_degrees = 0;
     Notify notify = {}; ///< receives notices about images
