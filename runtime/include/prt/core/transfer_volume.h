@@ -162,8 +162,9 @@ public:
     /// Scene::origin (prt/gltf/scene.h); a position outside the box is moved to the nearest point of the box.
     /// `normal` is the unit normal of the lit surface: the lookup uses the point at a distance of a quarter
     /// of a cell from `position` along `normal`, moved into the box. Zero (the default): no offset. The cell
-    /// is one of the brick that contains the point. If there is none, the nearest cell of the brick that
-    /// contains `position` is used, or, if there is none either, of the first brick.
+    /// belongs to the brick that contains the point. If no brick contains the point, it is the nearest cell
+    /// of the brick that contains `position`. If no brick contains `position`, it is the nearest cell of the
+    /// first brick.
     VolumeCorners find(const glm::vec3& position, const glm::vec3& normal = glm::vec3(0)) const;
     /// Element of `index()` for a position that no brick covers.
     static constexpr std::uint32_t kNoBrick = ~0u;
