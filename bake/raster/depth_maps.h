@@ -3,7 +3,7 @@
 // Orthographic depth maps of a scene.
 
 #include "bake/raster/raster_scene.h"
-#include "prt/gltf/scene.h"
+#include "prt/load/scene.h"
 #include "runtime/render/gl/gl_objects.h"
 #include "shared_structs.h"
 

@@ -2,7 +2,7 @@
 
 // Meshes whose edges are short everywhere, independent of light.
 
-#include "prt/gltf/scene.h"
+#include "prt/load/scene.h"
 
 namespace prt {
 

@@ -2,7 +2,7 @@
 
 // Edges of a scene by position, independent of vertices.
 
-#include "prt/gltf/scene.h"
+#include "prt/load/scene.h"
 
 #include <array>
 #include <cstdint>

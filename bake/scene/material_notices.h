@@ -2,7 +2,7 @@
 
 // Notices about materials.
 
-#include "prt/gltf/scene.h"
+#include "prt/load/scene.h"
 
 #include <string>
 #include <vector>

@@ -3,7 +3,7 @@
 // Surfaces that a mesh contains twice, once for each side.
 
 #include "bake/scene/ray_scene.h"
-#include "prt/gltf/scene.h"
+#include "prt/load/scene.h"
 
 #include <glm/vec2.hpp>
 

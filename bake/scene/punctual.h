@@ -2,7 +2,7 @@
 
 // Light of KHR_lights_punctual without occlusion.
 
-#include "prt/gltf/scene.h"
+#include "prt/load/scene.h"
 
 #include <glm/vec3.hpp>
 

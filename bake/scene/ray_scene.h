@@ -3,7 +3,7 @@
 // Ray queries against the triangles of a scene on the CPU, with Embree.
 
 #include "bake/scene/receivers.h"
-#include "prt/gltf/scene.h"
+#include "prt/load/scene.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>

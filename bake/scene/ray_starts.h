@@ -2,7 +2,7 @@
 
 // Origins of the rays of a vertex (docs/math.md, section 3).
 
-#include "prt/gltf/scene.h"
+#include "prt/load/scene.h"
 
 #include <glm/vec3.hpp>
 

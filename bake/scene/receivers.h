@@ -3,7 +3,7 @@
 // Receivers: the points for which the baker computes transfer.
 
 #include "prt/core/transfer.h"
-#include "prt/gltf/scene.h"
+#include "prt/load/scene.h"
 
 #include <glm/vec3.hpp>
 

@@ -2,7 +2,7 @@
 
 // A subset of a scene's primitives.
 
-#include "prt/gltf/scene.h"
+#include "prt/load/scene.h"
 
 #include <cstdint>
 #include <span>

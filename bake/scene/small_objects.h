@@ -2,7 +2,7 @@
 
 // Notice about objects that are too small for single precision.
 
-#include "prt/gltf/scene.h"
+#include "prt/load/scene.h"
 
 #include <optional>
 #include <string>

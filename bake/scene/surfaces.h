@@ -3,7 +3,7 @@
 // Properties of the surfaces that rays hit: coverage, reflection, transmission and emission of every triangle
 // of a scene.
 
-#include "prt/gltf/scene.h"
+#include "prt/load/scene.h"
 #include "prt/render/texture.h"
 
 #include <glm/vec2.hpp>

@@ -3,7 +3,7 @@
 // Compares speed and error of the bake of direct light on every backend and with every method.
 
 #include "bake/tracers/make_tracer.h"
-#include "prt/gltf/scene.h"
+#include "prt/load/scene.h"
 #include "prt/render/texture.h"
 
 #include <cstdint>

@@ -6,7 +6,7 @@
 #include "prt/core/baked_transfer.h"
 #include "prt/core/lightmap.h"
 #include "prt/core/progress.h"
-#include "prt/gltf/scene.h"
+#include "prt/load/scene.h"
 
 namespace prt {
 

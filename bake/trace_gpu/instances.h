@@ -2,7 +2,7 @@
 
 // Meshes that a scene contains several times.
 
-#include "prt/gltf/scene.h"
+#include "prt/load/scene.h"
 
 #include <glm/mat4x3.hpp>
 

@@ -2,7 +2,7 @@
 
 // Options for the camera and exposure of pictures.
 
-#include "prt/gltf/scene.h"
+#include "prt/load/scene.h"
 #include "prt/render/camera.h"
 
 #include <CLI/CLI.hpp>

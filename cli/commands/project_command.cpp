@@ -9,7 +9,7 @@
 #include "cli/program/outputs.h"
 #include "cli/program/session.h"
 #include "prt/core/error.h"
-#include "prt/gltf/light_file.h"
+#include "prt/load/light_file.h"
 #include "runtime/support/stopwatch.h"
 
 #include <fmt/core.h>

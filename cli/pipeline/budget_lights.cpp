@@ -3,7 +3,7 @@
 #include "cli/pipeline/budget_lights.h"
 
 #include "cli/pipeline/evaluation_lights.h"
-#include "prt/gltf/light_file.h"
+#include "prt/load/light_file.h"
 #include "runtime/support/tangent_frame.h"
 
 #include <glm/common.hpp>

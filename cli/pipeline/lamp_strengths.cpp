@@ -7,7 +7,7 @@
 #include "prt/core/light.h"
 #include "prt/core/sh.h"
 #include "prt/core/sh_basis.h"
-#include "runtime/scene/json_file.h"
+#include "runtime/load/json_file.h"
 #include "runtime/support/printable.h"
 
 #include <fmt/core.h>

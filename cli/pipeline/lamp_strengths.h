@@ -3,7 +3,7 @@
 // Strengths of the lamps of a model.
 
 #include "prt/core/transfer.h"
-#include "prt/gltf/scene.h"
+#include "prt/load/scene.h"
 
 #include <glm/vec3.hpp>
 

@@ -2,7 +2,7 @@
 
 #include "cli/pipeline/loaded_light.h"
 
-#include "prt/gltf/light_file.h"
+#include "prt/load/light_file.h"
 
 #include <fmt/core.h>
 #include <glm/gtc/matrix_transform.hpp>

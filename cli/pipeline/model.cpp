@@ -3,7 +3,7 @@
 #include "cli/pipeline/model.h"
 
 #include "prt/gltf/levels.h"
-#include "prt/gltf/light_file.h"
+#include "prt/load/light_file.h"
 #include "prt/render/lightmap_file.h"
 #include "runtime/scene/gltf/reorder.h"
 #include "runtime/support/counted.h"

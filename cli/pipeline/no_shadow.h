@@ -2,7 +2,7 @@
 
 // Materials that cast no shadow, such as shells around a scene that let light in.
 
-#include "prt/gltf/scene.h"
+#include "prt/load/scene.h"
 
 #include <string>
 #include <vector>

@@ -9,9 +9,8 @@
 #include "prt/core/sh_rotation.h"
 #include "prt/fit/suns.h"
 #include "prt/gl/gl_context.h"
-#include "prt/gltf/gltf.h"
-#include "prt/gltf/scene.h"
 #include "prt/image/image_file.h"
+#include "prt/load/model.h"
 #include "prt/shader/shader_source.h"
 #include "shared_layout.h" // attribute locations of the shader
 
@@ -55,17 +54,16 @@ struct Mesh {
 // ---- Once: the model with its transfer, and the sky.
 
 World load(const char* model, const char* sky) {
-    const prt::GltfDocument document = prt::load_gltf(model);
-    prt::Scene scene = prt::extract_scene(document);
-    auto compressed = prt::read_clustered(document, scene);
-    if (!compressed)
+    prt::Model shipped = prt::load_model(model);
+    if (!shipped.vertices)
         throw std::runtime_error("the model contains no compressed transfer; run prt compress first");
-    const prt::TransferLayout& layout = compressed->transfer.bases.layout;
+    prt::ClusteredTransfer& transfer = shipped.vertices->transfer;
+    const prt::TransferLayout& layout = transfer.bases.layout;
     const int suns = layout.has(prt::TermKind::direct) ? 1 : 0;
     const prt::SunSplit split =
         prt::find_suns(prt::load_environment(sky).environment, {.order = layout.order, .count = suns});
     const prt::Light light = prt::deringed(prt::project(split.remainder, layout.order)); // nowhere negative
-    return {std::move(scene), std::move(compressed->transfer), light,
+    return {std::move(shipped.scene), std::move(transfer), light,
             split.suns.empty() ? prt::Sun{} : split.suns[0]};
 }
 

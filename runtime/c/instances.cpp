@@ -2,7 +2,6 @@
 
 #include "runtime/c/model.h"
 
-#include "prt/gltf/transfer_gltf.h"
 #include "prt/shader/shader_source.h"
 #include "runtime/support/counted.h"
 
@@ -29,41 +28,35 @@ void sort_by_mesh(std::vector<prt::FileInstance>& instances) {
         instances, {}, [](const prt::FileInstance& instance) { return instance.stored_arrays.front(); });
 }
 
-/// Returns the range of instances that draw each primitive of `stored`; an empty range means it is drawn
+/// Returns the range of instances that draw each primitive of the scene; an empty range means it is drawn
 /// once.
-std::vector<prt_shared_instances::Range> ranges_of(const prt::InstancedModel& model) {
-    std::vector<prt_shared_instances::Range> of_arrays(model.stored.vertex_arrays.size()), result;
+std::vector<prt_shared_instances::Range> ranges_of(const prt::Model& model) {
+    std::vector<prt_shared_instances::Range> of_arrays(model.scene.vertex_arrays.size()), result;
     for (std::size_t i = 0; i < model.instances.size(); ++i)
         for (const std::size_t array : model.instances[i].stored_arrays) {
             if (of_arrays[array].count++ == 0)
                 of_arrays[array].first = i;
         }
-    for (const prt::Primitive& primitive : model.stored.primitives)
+    for (const prt::Primitive& primitive : model.scene.primitives)
         result.push_back(of_arrays[primitive.vertices]);
     return result;
 }
 
 } // namespace
 
-prt_model* prt::c::make_instanced(const GltfDocument& document, const std::string& name) {
-    InstancedModel model = read_instanced(document, extract_scene(document), name);
-    if (!model.compressed)
-        throw Error(name + ": contains no compressed transfer; run prt compress first");
+std::optional<prt_shared_instances> prt::c::shared_instances(Model& model) {
+    if (model.instances.empty())
+        return std::nullopt;
     sort_by_mesh(model.instances);
-    InstanceRelighter relighter(model.compressed->transfer, relit_instances(model));
+    const ClusteredTransfer& transfer = model.vertices->transfer;
+    InstanceRelighter relighter(transfer, relit_instances(model.instances, model.scene, transfer));
     std::vector<glm::vec4> worlds;
     for (const FileInstance& instance : model.instances) {
-        const glm::mat4 rotated(glm::transpose(glm::translate(instance.world, model.stored.origin)));
+        const glm::mat4 rotated(glm::transpose(glm::translate(instance.world, model.scene.origin)));
         worlds.insert(worlds.end(), {rotated[0], rotated[1], rotated[2]});
     }
     std::vector<glm::vec4> tables = relighter.table();
-    prt_shared_instances instances{std::move(relighter), std::move(worlds), std::move(tables),
-                                   ranges_of(model)};
-    ClusteredTransfer& transfer = model.compressed->transfer;
-    ClusterLighting constants(transfer);
-    auto layouts = cluster_layouts(transfer.bases);
-    return new prt_model{std::move(model.stored), std::move(transfer), std::move(constants),
-                         std::move(layouts), std::move(instances)};
+    return prt_shared_instances{std::move(relighter), std::move(worlds), std::move(tables), ranges_of(model)};
 }
 
 extern "C" {

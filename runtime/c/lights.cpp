@@ -4,8 +4,8 @@
 #include "prt/core/light.h"
 #include "prt/core/sh.h"
 #include "prt/core/sh_rotation.h"
-#include "prt/gltf/light_file.h"
 #include "prt/image/image_file.h"
+#include "prt/load/light_file.h"
 #include "runtime/c/boundary.h"
 #include "runtime/support/counted.h"
 

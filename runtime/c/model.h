@@ -4,7 +4,7 @@
 
 #include "prt/core/cluster_lighting.h"
 #include "prt/core/instances.h"
-#include "prt/gltf/gltf.h"
+#include "prt/load/model.h"
 #include "runtime/c/boundary.h"
 
 #include <optional>
@@ -34,7 +34,8 @@ namespace prt::c {
 /// Converts a prt_constants, whose values equal those of ConstantSource. Throws `Error` for others.
 ConstantSource source_of(int constants);
 
-/// Creates a model whose instances share transfer. Throws `Error` as `read_instanced`.
-prt_model* make_instanced(const GltfDocument& document, const std::string& name);
+/// Returns the instances of `model`, which must have compressed transfer of vertices; empty if none share
+/// transfer. Sorts the instances of `model` by mesh.
+std::optional<prt_shared_instances> shared_instances(Model& model);
 
 } // namespace prt::c

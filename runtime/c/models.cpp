@@ -2,7 +2,6 @@
 
 #include "runtime/c/model.h"
 
-#include "prt/gltf/transfer_gltf.h"
 #include "prt/shader/shader_source.h"
 #include "runtime/support/counted.h"
 
@@ -29,17 +28,15 @@ static_assert(static_cast<int>(prt::ConstantSource::texture) == PRT_CONSTANTS_IN
 static_assert(sizeof(prt::ClusterLayout) == 4 * sizeof(std::uint32_t) &&
               sizeof(glm::uvec3) == 3 * sizeof(std::uint32_t));
 
-prt_model* make_model(const prt::GltfDocument& document, const std::string& name) {
-    if (prt::shares_instances(document))
-        return make_instanced(document, name);
-    prt::Scene scene = prt::extract_scene(document);
-    auto compressed = prt::read_clustered(document, scene);
-    if (!compressed)
+prt_model* make_model(prt::Model model, const std::string& name) {
+    if (!model.vertices)
         throw Error(name + ": contains no compressed transfer; run prt compress first");
-    prt::ClusterLighting relighter(compressed->transfer);
-    auto layouts = prt::cluster_layouts(compressed->transfer.bases);
-    return new prt_model{std::move(scene), std::move(compressed->transfer), std::move(relighter),
-                         std::move(layouts)};
+    auto instances = shared_instances(model);
+    prt::ClusteredTransfer& transfer = model.vertices->transfer;
+    prt::ClusterLighting relighter(transfer);
+    auto layouts = prt::cluster_layouts(transfer.bases);
+    return new prt_model{std::move(model.scene), std::move(transfer), std::move(relighter),
+                         std::move(layouts), std::move(instances)};
 }
 
 } // namespace
@@ -50,7 +47,7 @@ prt_status prt_model_load(const char* path, prt_model** model, prt_message* mess
     return guarded(message, [&] {
         check_pointers(path, model);
         *model = nullptr;
-        as_file([&] { *model = make_model(prt::load_gltf(path), path); });
+        as_file([&] { *model = make_model(prt::load_model(path), path); });
     });
 }
 
@@ -59,7 +56,7 @@ prt_status prt_model_load_memory(const void* bytes, size_t size, prt_model** mod
         check_pointers(bytes, model);
         *model = nullptr;
         const std::span file(static_cast<const std::byte*>(bytes), size);
-        as_file([&] { *model = make_model(prt::parse_gltf(file, "memory"), "memory"); });
+        as_file([&] { *model = make_model(prt::parse_model(file, "memory"), "memory"); });
     });
 }
 

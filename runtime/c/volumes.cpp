@@ -1,8 +1,7 @@
 // The C interface: volumes in files written by prt compress.
 
 #include "prt/core/volume_relighter.h"
-#include "prt/gltf/gltf.h"
-#include "prt/gltf/transfer_gltf.h"
+#include "prt/load/model.h"
 #include "prt/shader/shader_source.h"
 #include "runtime/c/boundary.h"
 #include "runtime/support/counted.h"
@@ -37,12 +36,10 @@ namespace {
 using namespace prt::c;
 using prt::Error;
 
-prt_volume* make_volume(const prt::GltfDocument& document, const std::string& name) {
-    const prt::Scene scene = prt::extract_scene(document);
-    auto volume = prt::read_compressed_volume(document, scene);
-    if (!volume)
+prt_volume* make_volume(prt::Model model, const std::string& name) {
+    if (!model.volume)
         throw Error(name + ": contains no compressed volume; run prt bake --volume and prt compress first");
-    return new prt_volume(scene.origin, std::move(*volume));
+    return new prt_volume(model.scene.origin, std::move(*model.volume));
 }
 
 std::span<const glm::vec4> checked_constants(const prt_volume& volume, const float* constants) {
@@ -73,7 +70,7 @@ prt_status prt_volume_load(const char* path, prt_volume** volume, prt_message* m
     return guarded(message, [&] {
         check_pointers(path, volume);
         *volume = nullptr;
-        as_file([&] { *volume = make_volume(prt::load_gltf(path), path); });
+        as_file([&] { *volume = make_volume(prt::load_model(path), path); });
     });
 }
 
@@ -82,7 +79,7 @@ prt_status prt_volume_load_memory(const void* bytes, size_t size, prt_volume** v
         check_pointers(bytes, volume);
         *volume = nullptr;
         const std::span file(static_cast<const std::byte*>(bytes), size);
-        as_file([&] { *volume = make_volume(prt::parse_gltf(file, "memory"), "memory"); });
+        as_file([&] { *volume = make_volume(prt::parse_model(file, "memory"), "memory"); });
     });
 }
 

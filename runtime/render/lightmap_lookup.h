@@ -3,7 +3,7 @@
 // Looks up lightmaps at surface points on the CPU, with the bilinear filter of a GPU. Experimental.
 
 #include "prt/core/lightmap.h"
-#include "prt/gltf/scene.h"
+#include "prt/load/scene.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>

@@ -2,7 +2,7 @@
 
 // Transmission of light by materials. Experimental.
 
-#include "prt/gltf/scene.h"
+#include "prt/load/scene.h"
 
 namespace prt {
 

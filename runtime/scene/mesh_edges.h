@@ -3,7 +3,7 @@
 // The edges of a scene. Experimental.
 
 #include "prt/core/adjacency.h"
-#include "prt/gltf/scene.h"
+#include "prt/load/scene.h"
 
 #include <vector>
 

@@ -3,7 +3,7 @@
 
 #include "runtime/scene/smooth_normals.h"
 
-#include "runtime/scene/triangle_normal.h"
+#include "runtime/load/triangle_normal.h"
 
 #include <glm/trigonometric.hpp>
 
@@ -21,7 +21,7 @@ namespace {
 constexpr std::size_t kMaxNeighbours = 8;
 
 /// An edge of a triangle between two positions, `low` < `high`, and the corners at them.
-struct Edge {
+struct SharpEdge {
     std::uint32_t low, high;
     std::size_t low_corner, high_corner; ///< 3 * triangle + corner
     std::pair<std::uint32_t, std::uint32_t> ends() const { return {low, high}; }
@@ -116,14 +116,14 @@ private:
 
     void join_across_edges(double min_cosine) {
         const std::vector<std::uint32_t> weld = welded(positions_);
-        std::vector<Edge> edges;
+        std::vector<SharpEdge> edges;
         for (std::size_t corner = 0; corner < 3 * triangles_.size(); ++corner) {
             const std::size_t next = corner % 3 == 2 ? corner - 2 : corner + 1;
             const std::uint32_t a = weld[vertex_of(corner)], b = weld[vertex_of(next)];
             if (a != b && faces_[corner / 3] != glm::dvec3(0))
-                edges.push_back(a < b ? Edge{a, b, corner, next} : Edge{b, a, next, corner});
+                edges.push_back(a < b ? SharpEdge{a, b, corner, next} : SharpEdge{b, a, next, corner});
         }
-        std::ranges::stable_sort(edges, {}, &Edge::ends);
+        std::ranges::stable_sort(edges, {}, &SharpEdge::ends);
         for (std::size_t i = 0; i < edges.size(); ++i)
             for (std::size_t j = i + 1; j < std::min(i + kMaxNeighbours, edges.size()); ++j) {
                 if (edges[j].ends() != edges[i].ends())

@@ -2,7 +2,7 @@
 
 #include "program.h"
 #include "prt/gltf/gltf.h"
-#include "runtime/scene/predictors.h"
+#include "runtime/load/predictors.h"
 #include "support/glb_file.h"
 #include "support/predicted.h"
 #include "support/scene_builder.h"

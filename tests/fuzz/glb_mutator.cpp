@@ -1,6 +1,6 @@
 // Mutates models in effective positions: a member of the JSON, its text, or the binary chunk. Then it
 // rebuilds the container, because random bytes would break its lengths at once.
-#include "runtime/scene/gltf/glb.h"
+#include "runtime/load/glb.h"
 #include "target.h"
 
 #include <nlohmann/json.hpp>

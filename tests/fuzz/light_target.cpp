@@ -1,7 +1,7 @@
 // A light file of prt project is read.
 #include "input_file.h"
 
-#include "prt/gltf/light_file.h"
+#include "prt/load/light_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace prt;

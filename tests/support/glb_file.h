@@ -1,6 +1,6 @@
 #pragma once
 
-#include "prt/gltf/scene.h"
+#include "prt/load/scene.h"
 
 #include <nlohmann/json.hpp>
 

@@ -2,7 +2,7 @@
 
 // Small scenes that GPU bakes are held against CPU bakes on.
 
-#include "prt/gltf/scene.h"
+#include "prt/load/scene.h"
 #include "prt/render/texture.h"
 
 #include <cstdint>

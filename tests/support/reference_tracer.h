@@ -3,7 +3,7 @@
 // Computes direct transfer independently of the baker, as a reference: only Embree is shared. Ray origins,
 // samples (jittered strata) and basis (bands 0 to 2 as polynomials) are implemented separately.
 
-#include "prt/gltf/scene.h"
+#include "prt/load/scene.h"
 
 #include <array>
 #include <vector>

@@ -2,7 +2,7 @@
 
 // Cuts surfaces into charts, which are projected along an axis.
 
-#include "prt/gltf/scene.h"
+#include "prt/load/scene.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>

@@ -3,7 +3,7 @@
 // Creates texture coordinates without overlaps for all surfaces of a scene. Experimental.
 
 #include "prt/bake/texels.h"
-#include "prt/gltf/scene.h"
+#include "prt/load/scene.h"
 #include "runtime/scene/gltf/vertex_splits.h"
 
 #include <cstddef>

@@ -3,7 +3,7 @@
 // Places the bricks of a volume: fine ones at surfaces, coarse ones in free space.
 
 #include "prt/bake/volume_bake.h"
-#include "prt/gltf/scene.h"
+#include "prt/load/scene.h"
 
 #include <cstddef>
 

@@ -2,7 +2,7 @@
 
 // Pose and position of the moving figure in a frame.
 
-#include "prt/gltf/scene.h"
+#include "prt/load/scene.h"
 
 #include <glm/mat4x4.hpp>
 

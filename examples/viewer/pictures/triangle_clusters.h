@@ -2,7 +2,7 @@
 
 // Culls clusters of triangles outside the view.
 
-#include "prt/gltf/scene.h"
+#include "prt/load/scene.h"
 #include "runtime/render/gl/gl_scene.h"
 
 #include <glm/mat4x4.hpp>

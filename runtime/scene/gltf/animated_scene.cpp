@@ -1,11 +1,11 @@
 // A scene with animated nodes.
 #include "prt/core/error.h"
 #include "prt/gltf/animation.h"
+#include "runtime/load/node_transforms.h"
+#include "runtime/load/skinning.h"
+#include "runtime/load/transformed_normal.h"
 #include "runtime/scene/gltf/extraction.h"
-#include "runtime/scene/gltf/node_transforms.h"
 #include "runtime/scene/gltf/read_animations.h"
-#include "runtime/scene/gltf/skinning.h"
-#include "runtime/scene/gltf/transformed_normal.h"
 
 #include <algorithm>
 
@@ -57,13 +57,13 @@ void apply(const glm::dvec4& value, AnimatedPart part, LocalPose& pose) {
 } // namespace
 
 bool has_animations(const GltfDocument& document) {
-    return !document.contents().model.animations.empty();
+    return !document.contents().parsed.animations.empty();
 }
 
 AnimatedScene::AnimatedScene(const GltfDocument& document) {
     const GltfContents& contents = document.contents();
     try {
-        Extraction extraction = extract(contents, Keep::moving);
+        Geometry extraction = extract(contents, Keep::moving);
         scene_ = std::move(extraction.scene);
         vertices_ = std::move(extraction.moving);
         for (std::size_t skin = 0; skin < contents.model.skins.size(); ++skin)

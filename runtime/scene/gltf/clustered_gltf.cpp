@@ -2,63 +2,15 @@
 
 #include "prt/gltf/gltf.h"
 
-#include "runtime/scene/gltf/accessor.h"
-#include "runtime/scene/gltf/allowance.h"
-#include "runtime/scene/gltf/changed_file.h"
-#include "runtime/scene/gltf/clustered_json.h"
-#include "runtime/scene/gltf/fallback.h"
+#include "runtime/load/vertex_transfer.h"
+#include "runtime/scene/gltf/write_clustered_json.h"
 #include "runtime/scene/gltf/make_meshes_unique.h"
-#include "runtime/scene/gltf/own_attributes.h"
-#include "runtime/scene/gltf/predictors_json.h"
-#include "runtime/scene/gltf/transfer_json.h"
 
-#include <algorithm>
 #include <cstring>
-#include <map>
 #include <string>
 
 namespace prt {
 namespace {
-
-int component_type(WeightFormat format) {
-    return format == WeightFormat::packed ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE
-                                          : TINYGLTF_COMPONENT_TYPE_FLOAT;
-}
-
-/// Throws unless weights of `format` are stored as they were written.
-void check_weight_accessor(const std::string& name, const tinygltf::Accessor& accessor, WeightFormat format,
-                           std::size_t vertices) {
-    if (accessor.componentType != component_type(format))
-        throw Error(name + " has component type " + std::to_string(accessor.componentType) + ", not " +
-                    std::to_string(component_type(format)) + kCompressAgain);
-    if (accessor.normalized)
-        throw Error(name + " is normalized, but must not be" + kCompressAgain);
-    if (accessor.type != TINYGLTF_TYPE_VEC4 || accessor.count != vertices)
-        throw Error(name + " is not one VEC4 per vertex" + kCompressAgain);
-}
-
-/// Returns the accessor of an attribute. Throws `Error` if it is missing.
-int accessor_of(const Json& attributes, const std::string& name) {
-    if (!attributes.contains(name))
-        throw Error("has no attribute " + name + kCompressAgain);
-    return attributes.at(name).get<int>();
-}
-
-/// Throws `Error` if the file has attributes of transfer but no extension of prtkit. Programs that copy only
-/// the extensions that they support write such files.
-void check_extension_is_kept(const GltfContents& contents) {
-    if (const auto extensions = contents.json.find("extensions"); extensions != contents.json.end())
-        for (auto it = extensions->begin(); it != extensions->end(); ++it)
-            if (it.key().starts_with("PRTKIT_"))
-                return;
-    for_each_primitive(contents.json, [](const Json& primitive) {
-        const Json& attributes = primitive.value("attributes", Json::object());
-        for (auto it = attributes.begin(); it != attributes.end(); ++it)
-            if (it.key().starts_with("_PRT_WEIGHTS_") || it.key() == "_PRT_CLUSTER")
-                throw Error("has attribute " + it.key() + ", but not the extension " + kClusteredExtension +
-                            kCompressAgain);
-    });
-}
 
 /// Writes _PRT_CLUSTER: one or two bytes per vertex, aligned to four as glTF requires.
 std::size_t write_clusters(GltfContents& contents, std::span<const std::uint16_t> clusters, bool wide) {
@@ -66,19 +18,10 @@ std::size_t write_clusters(GltfContents& contents, std::span<const std::uint16_t
     for (std::size_t i = 0; i < clusters.size(); ++i)
         std::memcpy(&bytes[i * 4], &clusters[i], wide ? 2 : 1); // little-endian, like glTF
     return contents.add_accessor({{"bufferView", contents.add_buffer_view(bytes, 4, true)},
-                                  {"componentType", wide ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT
-                                                         : TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE},
+                                  {"componentType", wide ? kUnsignedShort
+                                                         : kUnsignedByte},
                                   {"count", clusters.size()},
                                   {"type", "SCALAR"}});
-}
-
-/// Returns the size of one _PRT_WEIGHTS_ attribute in bytes: four floats, or one word of packed weights.
-std::size_t group_bytes(WeightFormat format) {
-    return format == WeightFormat::packed ? 4 : 4 * sizeof(float);
-}
-
-std::size_t group_count(const ClusteredReceivers& receivers) {
-    return receivers.stride() / group_bytes(receivers.format);
 }
 
 /// Writes _PRT_WEIGHTS_`group` of receivers [first, first + count).
@@ -89,41 +32,29 @@ std::size_t write_weights(GltfContents& contents, const ClusteredReceivers& rece
     for (std::size_t i = 0; i < count; ++i)
         std::memcpy(&bytes[i * size], &receivers.weights[(first + i) * stride + group * size], size);
     return contents.add_accessor({{"bufferView", contents.add_buffer_view(bytes, size, true)},
-                                  {"componentType", component_type(receivers.format)},
+                                  {"componentType", weight_type(receivers.format)},
                                   {"count", count},
                                   {"type", "VEC4"}});
 }
 
-/// Reads the cluster indices of one vertex array.
-void read_clusters(const GltfContents& contents, const Json& attributes, std::size_t clusters,
-                   std::span<std::uint16_t> to) {
-    const auto values = read_unsigned(contents.model, accessor_of(attributes, "_PRT_CLUSTER"), 1);
-    if (values.size() != to.size())
-        throw Error("_PRT_CLUSTER has " + std::to_string(values.size()) + " elements, but there are " +
-                    std::to_string(to.size()) + " vertices");
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        if (values[i] >= clusters)
-            throw Error("vertex " + std::to_string(i) + " has cluster " + std::to_string(values[i]) +
-                        ", but there are only " + std::to_string(clusters));
-        to[i] = static_cast<std::uint16_t>(values[i]);
+/// Writes predictors and offsets into `extension`; nothing if `bases` has none. Origins of predictors are
+/// converted to the file's world.
+void write_predictors(GltfContents& contents, const Scene& scene, const ClusteredBases& bases,
+                      Json& extension) {
+    if (bases.predictors.empty())
+        return;
+    Json predictors = Json::array();
+    for (const Predictor& predictor : bases.predictors) {
+        Json json = {{"kind", to_string(predictor.kind)}};
+        if (predictor.kind == PredictorKind::position) {
+            const glm::dvec3 origin = scene.world(predictor.origin);
+            json["origin"] = {origin.x, origin.y, origin.z};
+        }
+        json["scale"] = {predictor.scale.x, predictor.scale.y, predictor.scale.z};
+        predictors.push_back(std::move(json));
     }
-}
-
-/// Reads the weights of one vertex array, into receivers starting at `first`.
-void read_weights(const GltfContents& contents, const Json& attributes, std::size_t first, std::size_t count,
-                  ClusteredReceivers& receivers) {
-    const std::size_t size = group_bytes(receivers.format), stride = receivers.stride();
-    for (std::size_t group = 0; group < group_count(receivers); ++group) {
-        const std::string name = "_PRT_WEIGHTS_" + std::to_string(group);
-        const int accessor = accessor_of(attributes, name);
-        check_weight_accessor(name, contents.model.accessors.at(static_cast<std::size_t>(accessor)),
-                              receivers.format, count);
-        const std::vector<std::byte> elements = read_elements(contents.model, accessor);
-        if (receivers.format == WeightFormat::float32)
-            check_magnitudes(read_floats(contents.model, accessor, 4), kMaxFloatWeight, "the weights");
-        for (std::size_t i = 0; i < count; ++i)
-            std::memcpy(&receivers.weights[(first + i) * stride + group * size], &elements[i * size], size);
-    }
+    extension["predictors"] = std::move(predictors);
+    extension["centers"] = write_row_code(contents, encode_rows(bases.centers, bases.predictor_rows()));
 }
 
 void write_into(GltfContents& contents, const Scene& scene, const CompressedTransfer& compressed) {
@@ -158,38 +89,6 @@ void write_into(GltfContents& contents, const Scene& scene, const CompressedTran
     contents.use_extension(kClusteredExtension);
 }
 
-/// Allocates the weights of all receivers.
-void make_room(const GltfContents& contents, ClusteredReceivers& receivers) {
-    check_allowed(static_cast<double>(receivers.size()) * static_cast<double>(receivers.stride()),
-                  contents.file_bytes, "its weights");
-    receivers.weights.resize(receivers.size() * receivers.stride());
-}
-
-/// Returns the transfer attributes of prtkit in `attributes`, sorted by name.
-Json own_attributes(const Json& attributes) {
-    std::map<std::string, Json> own;
-    for (auto it = attributes.begin(); it != attributes.end(); ++it)
-        if (is_own_attribute(it.key()) && it.key() != kOtherColors)
-            own[it.key()] = *it;
-    return own;
-}
-
-/// Reads clusters and weights of one primitive.
-void read_receivers(const GltfContents& contents, const Json& attributes, const VertexArray& vertices,
-                    ClusteredTransfer& transfer) {
-    ClusteredReceivers& receivers = transfer.receivers;
-    const std::size_t clusters = transfer.bases.clusters();
-    const bool packed = receivers.words > 0;
-    if (!packed)
-        read_clusters(contents, attributes, clusters,
-                      std::span(receivers.clusters).subspan(vertices.first_receiver, vertices.size()));
-    if (receivers.weights.empty())
-        make_room(contents, receivers);
-    read_weights(contents, attributes, vertices.first_receiver, vertices.size(), receivers);
-    if (packed)
-        unpack_clusters(clusters, vertices.first_receiver, vertices.size(), "vertex", receivers);
-}
-
 } // namespace
 
 void write_clustered(GltfDocument& document, const Scene& scene, const CompressedTransfer& compressed) {
@@ -197,41 +96,7 @@ void write_clustered(GltfDocument& document, const Scene& scene, const Compresse
 }
 
 std::optional<CompressedTransfer> read_clustered(const GltfDocument& document, const Scene& scene) {
-    return named(document, [&](const GltfContents& contents) -> std::optional<CompressedTransfer> {
-        const Json* extension = find_extension(contents, kClusteredExtension, kClusteredVersion);
-        if (!extension) {
-            check_extension_is_kept(contents);
-            return std::nullopt;
-        }
-        check_one_to_one(contents);
-        CompressedTransfer compressed;
-        ClusteredBases& bases = compressed.transfer.bases;
-        ClusteredReceivers& receivers = compressed.transfer.receivers;
-        bases = read_clusters_of(*extension);
-        compressed.record = read_record(extension->value("bake", Json::object()));
-        read_predictors(contents, scene, *extension, bases);
-        read_bases(contents, extension->at("bases"), bases);
-        const bool packed = extension->contains("packing");
-        if (packed)
-            read_packing(contents, extension->at("packing"), compressed.transfer);
-        else
-            receivers.components = (bases.max_components() + 3) / 4 * 4;
-        receivers.clusters.resize(scene.receivers());
-        receivers.predictors = read_coordinates(contents, scene, bases);
-        TransferOfVertices read;
-        for (const Primitive& primitive : scene.primitives) {
-            const Json& attributes = primitive_json(contents, primitive).at("attributes");
-            if (!read.is_new(primitive, own_attributes(attributes)))
-                continue;
-            try {
-                read_receivers(contents, attributes, scene.vertex_arrays[primitive.vertices],
-                               compressed.transfer);
-            } catch (const std::exception& error) {
-                throw Error(primitive_name(primitive) + ": " + in_plain_words(error));
-            }
-        }
-        return compressed;
-    });
+    return named(document, [&](const GltfContents& contents) { return read_clustered(contents, scene); });
 }
 
 } // namespace prt

@@ -2,7 +2,7 @@
 #include "runtime/scene/gltf/contents.h"
 
 #include "prt/core/error.h"
-#include "runtime/scene/gltf/own_attributes.h"
+#include "runtime/load/own_attributes.h"
 #include "runtime/support/printable.h"
 
 #include <algorithm>
@@ -147,7 +147,7 @@ void cut_bytes(GltfContents& contents, const std::set<std::size_t>& removed) {
     kept.finish(contents.binary().size());
     for (Json& view : views)
         view["byteOffset"] = kept.position(range_of(view).begin);
-    for (tinygltf::BufferView& view : contents.model.bufferViews)
+    for (GltfBufferView& view : contents.model.bufferViews)
         view.byteOffset = kept.position(view.byteOffset);
     kept.move_bytes(contents.binary());
 }
@@ -220,26 +220,10 @@ void remove_images(GltfContents& contents, std::set<std::size_t> images, std::se
                 list.erase(list.begin() + static_cast<std::ptrdiff_t>(*i));
     };
     erase_from(contents.images);
-    erase_from(contents.model.images);
+    erase_from(contents.parsed.images);
 }
 
 } // namespace
-
-Json& member(Json& object, const char* key, Json::value_t type) {
-    if (!object.contains(key))
-        object[key] = Json(type);
-    return object[key];
-}
-
-const Json* extension_of(const Json& object, const char* name) {
-    if (!object.contains("extensions") || !object["extensions"].contains(name))
-        return nullptr;
-    return &object["extensions"][name];
-}
-
-Json& extensions_of(Json& object) {
-    return member(object, "extensions", Json::value_t::object);
-}
 
 std::size_t GltfContents::add_buffer_view(std::span<const std::byte> bytes, std::size_t stride,
                                           bool vertices) {
@@ -252,7 +236,7 @@ std::size_t GltfContents::add_buffer_view(std::span<const std::byte> bytes, std:
     if (stride > 0)
         view["byteStride"] = stride;
     if (vertices)
-        view["target"] = TINYGLTF_TARGET_ARRAY_BUFFER;
+        view["target"] = kArrayBuffer;
     // Grow by at least an eighth, so that many views are copied only a few times each, and one large view is
     // not doubled.
     if (const std::size_t needed = buffer.size() + bytes.size() + 8; needed > buffer.capacity())
@@ -277,21 +261,6 @@ void GltfContents::use_extension(const std::string& name) {
         used.push_back(name);
 }
 
-void GltfContents::drop_extension(const std::string& name) {
-    for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
-        if (!json.contains(list))
-            continue;
-        Json kept = Json::array();
-        for (const Json& other : json[list])
-            if (other != name)
-                kept.push_back(other);
-        if (kept.empty())
-            json.erase(list);
-        else
-            json[list] = std::move(kept);
-    }
-}
-
 void GltfContents::cut_unused_bytes() {
     if (json.contains("bufferViews"))
         cut_bytes(*this, {});
@@ -309,7 +278,7 @@ void GltfContents::remove_volume() {
     if (json["extensions"].empty())
         json.erase("extensions");
     remove_unused({}, std::move(views));
-    drop_extension(kVolumeExtension);
+    drop_extension(json, kVolumeExtension);
 }
 
 void GltfContents::remove_transfer() {
@@ -357,9 +326,9 @@ void GltfContents::remove_transfer() {
     remove_images(*this, std::move(of_lightmaps), views);
     remove_unused(std::move(accessors), std::move(views));
     for (const char* name : kOwnExtensions)
-        drop_extension(name);
+        drop_extension(json, name);
     if (separate.empty())
-        drop_extension(kInstancesExtension);
+        drop_extension(json, kInstancesExtension);
 }
 
 void GltfContents::remove_unused(std::set<std::size_t> accessors, std::set<std::size_t> views) {
@@ -379,18 +348,6 @@ void GltfContents::remove_unused(std::set<std::size_t> accessors, std::set<std::
     erase_accessors(*this, accessors);
     for_each_view(json, [&](std::size_t view) { views.erase(view); });
     erase_views(*this, views);
-}
-
-std::string in_plain_words(const std::exception& error) {
-    std::string what = printable(one_line(error.what()));
-    if (dynamic_cast<const nlohmann::json::exception*>(
-            &error)) // "[json.exception.type_error.302] type must be .."
-        return "is damaged glTF: " + what.substr(what.starts_with("[json") ? what.find("] ") + 2 : 0);
-    if (dynamic_cast<const std::out_of_range*>(&error))
-        return "is damaged glTF: an index is out of range";
-    if (dynamic_cast<const std::bad_alloc*>(&error) || dynamic_cast<const std::length_error*>(&error))
-        return "there is not enough memory to read the file";
-    return what.empty() ? "is damaged glTF" : what;
 }
 
 } // namespace prt

@@ -2,26 +2,28 @@
 #include "prt/gltf/gltf.h"
 
 #include "prt/core/error.h"
-#include "runtime/scene/gltf/accessor.h"
-#include "runtime/scene/gltf/allowance.h"
-#include "runtime/scene/gltf/check_data.h"
-#include "runtime/scene/gltf/check_shape.h"
-#include "runtime/scene/gltf/coded_vertices.h"
+#include "runtime/load/accessor.h"
+#include "runtime/load/allowance.h"
+#include "runtime/load/check_data.h"
+#include "runtime/load/check_shape.h"
+#include "runtime/load/coded_vertices.h"
+#include "runtime/load/deduplicated_meshes.h"
+#include "runtime/load/expand_nodes.h"
+#include "runtime/load/fallback.h"
+#include "runtime/load/glb.h"
+#include "runtime/load/json_text.h"
+#include "runtime/load/meshopt_views.h"
+#include "runtime/load/supported_extensions.h"
+#include "runtime/scene/gltf/compressed_views.h"
 #include "runtime/scene/gltf/contents.h"
-#include "runtime/scene/gltf/deduplicated_meshes.h"
 #include "runtime/scene/gltf/draco_primitives.h"
 #include "runtime/scene/gltf/encode_glb.h"
-#include "runtime/scene/gltf/fallback.h"
-#include "runtime/scene/gltf/glb.h"
-#include "runtime/scene/gltf/instances.h"
-#include "runtime/scene/gltf/json_text.h"
+#include "runtime/scene/gltf/encode_vertices.h"
 #include "runtime/scene/gltf/lights.h"
-#include "runtime/scene/gltf/meshopt_views.h"
 #include "runtime/scene/gltf/repair_vertices.h"
 #include "runtime/scene/gltf/reparse.h"
 #include "runtime/scene/gltf/side_files.h"
 #include "runtime/scene/gltf/smooth_primitives.h"
-#include "runtime/scene/gltf/supported_extensions.h"
 #include "runtime/support/counted.h"
 #include "runtime/support/file.h"
 #include "runtime/support/lfs_pointer.h"
@@ -104,16 +106,6 @@ void check_is_gltf(std::span<const std::byte> file, const std::filesystem::path&
                 "; export the scene as glTF 2.0 (.glb)");
 }
 
-void check_required_extensions(const Json& json) {
-    if (!json.contains("extensionsRequired"))
-        return;
-    for (const Json& name : json["extensionsRequired"])
-        if (!name.is_string() || !is_supported_extension(name.get<std::string>()))
-            throw Error("requires the glTF extension " +
-                        (name.is_string() ? name.get<std::string>() : name.dump()) +
-                        ", which is not supported");
-}
-
 /// Converts JSON that deviates from glTF, or uses newer names, to the form that the reader expects. Returns
 /// whether anything was changed.
 bool accept_deviations(GltfContents& contents) {
@@ -139,12 +131,12 @@ void keep_encoded(std::vector<std::vector<std::byte>>& images, std::size_t i, co
 /// Reads images in buffer views; tinygltf has read those in files.
 void take_images(GltfContents& contents, const SideFiles& files) {
     double total = 0;
-    contents.images.resize(contents.model.images.size());
+    contents.images.resize(contents.parsed.images.size());
     contents.image_troubles.resize(contents.images.size());
     for (std::size_t i = 0; i < contents.images.size(); ++i) {
-        const tinygltf::Image& image = contents.model.images[i];
+        const tinygltf::Image& image = contents.parsed.images[i];
         if (image.bufferView >= 0) {
-            const auto bytes = std::as_bytes(buffer_view_bytes(contents.model, image.bufferView));
+            const auto bytes = buffer_view_bytes(contents.model, image.bufferView);
             total += static_cast<double>(bytes.size()); // several images may use one view
             check_allowed(2 * total, contents.file_bytes, "the encoded images");
             contents.images[i].assign(bytes.begin(), bytes.end());
@@ -158,8 +150,9 @@ void take_images(GltfContents& contents, const SideFiles& files) {
     }
 }
 
-void load_model(GltfContents& contents, std::span<const std::byte> file, std::string_view text, bool binary,
-                const GltfOptions& options) {
+/// Reads buffers, images, materials and animations.
+void parse(GltfContents& contents, std::span<const std::byte> file, std::string_view text, bool binary,
+           const GltfOptions& options) {
     if (file.size() > UINT_MAX)
         throw Error("is larger than 4 GB");
     tinygltf::TinyGLTF loader;
@@ -176,24 +169,27 @@ void load_model(GltfContents& contents, std::span<const std::byte> file, std::st
     loader.SetFsCallbacks(files.callbacks());
     std::string error, warning;
     const bool loaded = binary
-                            ? loader.LoadBinaryFromMemory(&contents.model, &error, &warning,
+                            ? loader.LoadBinaryFromMemory(&contents.parsed, &error, &warning,
                                                           reinterpret_cast<const unsigned char*>(file.data()),
                                                           static_cast<unsigned>(file.size()))
-                            : loader.LoadASCIIFromString(&contents.model, &error, &warning, text.data(),
+                            : loader.LoadASCIIFromString(&contents.parsed, &error, &warning, text.data(),
                                                          static_cast<unsigned>(text.size()), "");
     files.check_outputs();
     if (!loaded)
         throw Error(error.empty() ? warning : error);
-    for (const tinygltf::Buffer& buffer : contents.model.buffers)
+    contents.model = read_model(contents.json);
+    for (tinygltf::Buffer& buffer : contents.parsed.buffers) {
         if (!buffer.uri.empty())
             contents.file_bytes += buffer.data.size();
+        contents.model.buffers.push_back({std::exchange(buffer.data, {})});
+    }
     contents.notices.insert(contents.notices.end(), files.notices().begin(), files.notices().end());
     take_images(contents, files);
 }
 
 /// Joins all buffers into the first and redirects the buffer views.
 void join_buffers(GltfContents& contents) {
-    std::vector<tinygltf::Buffer>& buffers = contents.model.buffers;
+    std::vector<GltfBuffer>& buffers = contents.model.buffers;
     if (buffers.empty())
         buffers.emplace_back();
     std::vector<std::size_t> begin(1, 0);
@@ -204,7 +200,7 @@ void join_buffers(GltfContents& contents) {
         all.insert(all.end(), buffers[b].data.begin(), buffers[b].data.end());
         buffers[b].data = {};
     }
-    for (tinygltf::BufferView& view : contents.model.bufferViews) {
+    for (GltfBufferView& view : contents.model.bufferViews) {
         const auto buffer = static_cast<std::size_t>(view.buffer);
         if (view.buffer < 0 || buffer >= begin.size())
             throw Error("a buffer view refers to buffer " + std::to_string(view.buffer) +
@@ -243,17 +239,19 @@ void decompress_model(GltfContents& contents, std::span<const std::byte> file, s
         plain = {};
         const std::vector<std::byte> rebuilt =
             form.binary ? make_glb(plain_text, glb_binary(file)) : std::vector<std::byte>{};
-        load_model(contents, rebuilt, plain_text, form.binary, options);
+        parse(contents, rebuilt, plain_text, form.binary, options);
     } else {
         check_views(contents.json);
-        load_model(contents, file, text, form.binary, options);
+        parse(contents, file, text, form.binary, options);
     }
     if (meshopt)
         decompress_views(contents);
     if (draco)
         decompress_primitives(contents);
+    check_data(contents);
+    const bool coded = decode_vertices(contents);
     join_buffers(contents);
-    if (draco)
+    if (draco || coded)
         contents.cut_unused_bytes();
 }
 
@@ -365,10 +363,10 @@ GltfDocument parse_gltf(std::span<const std::byte> whole_file, const std::filesy
         check_required_extensions(contents->json);
         contents->file_bytes = file.size();
         decompress_model(*contents, file, text, {binary, edited || !small}, options);
-        check_data(*contents);
-        decode_vertices(*contents);
         repair_vertices(*contents);
-        set_fallback_aside(*contents);
+        for (const int material : set_fallback_aside(*contents))
+            contents->parsed.materials.at(static_cast<std::size_t>(material))
+                .extensions.erase(kUnlitExtension);
         if (options.instancing == Instancing::separate)
             deduplicate_meshes(*contents);
         scale_lights(contents->json, options.lamp_scale);

@@ -2,7 +2,7 @@
 #include "runtime/scene/gltf/draco_mesh.h"
 
 #include "prt/core/error.h"
-#include "runtime/scene/gltf/accessor.h"
+#include "runtime/load/accessor.h"
 #include "runtime/support/counted.h"
 
 #include <draco/compression/decode.h>
@@ -25,7 +25,7 @@ bool decode_number(draco::DecoderBuffer& buffer, std::uint32_t& number) {
 
 /// Returns the number of triangles in the header of the data; 0 if the header cannot be read. See the Draco
 /// bitstream specification, sections 3 to 5.
-std::uint32_t claimed_triangles(std::span<const unsigned char> bytes) {
+std::uint32_t claimed_triangles(std::span<const std::byte> bytes) {
     draco::DecoderBuffer buffer;
     buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     draco::DracoHeader header;
@@ -49,7 +49,7 @@ std::uint32_t claimed_triangles(std::span<const unsigned char> bytes) {
 }
 
 /// Limits the number of triangles, because the decoder allocates memory for all of them before it reads them.
-void check_claims(std::span<const unsigned char> bytes) {
+void check_claims(std::span<const std::byte> bytes) {
     constexpr std::size_t kAlwaysFits = std::size_t{1} << 20;
     // The maximum measured value is 194: a flat grid of 131 072, with corners at quantisation steps.
     constexpr std::size_t kMaxTrianglesPerByte = 1024;
@@ -78,7 +78,7 @@ void check_values(const draco::Mesh& mesh, const draco::PointAttribute& attribut
 
 } // namespace
 
-std::unique_ptr<draco::Mesh> decode_draco(std::span<const unsigned char> bytes) {
+std::unique_ptr<draco::Mesh> decode_draco(std::span<const std::byte> bytes) {
     check_claims(bytes);
     draco::DecoderBuffer buffer;
     buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -93,7 +93,7 @@ std::vector<std::byte> draco_indices(const draco::Mesh& mesh, int component_type
     std::vector<std::byte> bytes;
     for (draco::FaceIndex face(0); face < mesh.num_faces(); ++face)
         for (const draco::PointIndex& point : mesh.face(face)) {
-            if (component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT)
+            if (component_type == kUnsignedShort)
                 append(bytes, static_cast<std::uint16_t>(point.value()));
             else
                 append(bytes, point.value());

@@ -13,7 +13,7 @@ namespace prt {
 
 /// Decodes a compressed mesh. Throws `Error` if the data is damaged, or claims more elements than it can
 /// contain.
-std::unique_ptr<draco::Mesh> decode_draco(std::span<const unsigned char> bytes);
+std::unique_ptr<draco::Mesh> decode_draco(std::span<const std::byte> bytes);
 
 /// Returns the corners of all triangles as indices of `component_type`: unsigned short or int.
 std::vector<std::byte> draco_indices(const draco::Mesh& mesh, int component_type);

@@ -2,8 +2,8 @@
 #include "runtime/scene/gltf/draco_primitives.h"
 
 #include "prt/core/error.h"
-#include "runtime/scene/gltf/accessor.h"
-#include "runtime/scene/gltf/allowance.h"
+#include "runtime/load/accessor.h"
+#include "runtime/load/allowance.h"
 #include "runtime/scene/gltf/draco_mesh.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ constexpr int kIndices = -1; ///< used instead of an attribute's id
 /// One compressed primitive, in the JSON and in tinygltf's model.
 struct Position {
     Json& json;
-    tinygltf::Primitive& model;
+    GltfPrimitive& model;
     Json attributes; ///< names and ids in the compressed mesh
     std::string name;
 };
@@ -51,8 +51,7 @@ public:
         try {
             const auto mesh = decode_draco(buffer_view_bytes(contents_.model, static_cast<int>(view)));
             const bool small = mesh->num_points() <= 65535; // the last index means a restart
-            index_type_ =
-                small ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT : TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+            index_type_ = small ? kUnsignedShort : kUnsignedInt;
             set_view(view, draco_indices(*mesh, index_type_), 0);
             for (Position& position : positions) {
                 name = position.name;
@@ -77,7 +76,7 @@ private:
         position.json["indices"] = indices;
         position.model.indices = indices.get<int>();
         position.json.erase("mode"); // strips are decoded as triangles
-        position.model.mode = TINYGLTF_MODE_TRIANGLES;
+        position.model.mode = kTriangles;
         for (const auto& item : position.attributes.items()) {
             Json& reference = position.json.at("attributes").at(item.key());
             const int id = item.value().get<int>();
@@ -89,7 +88,7 @@ private:
 
     void fill(Json& accessor, const draco::Mesh& mesh, int id) {
         const DracoAttribute data = draco_attribute(mesh, id, accessor.at("componentType").get<int>(),
-                                                    component_count(tinygltf_type(accessor.at("type"))));
+                                                    component_count(accessor.at("type")));
         accessor["bufferView"] = contents_.json["bufferViews"].size();
         accessor["count"] = mesh.num_points();
         if (accessor.contains("min") || accessor.contains("max")) {
@@ -121,14 +120,14 @@ private:
         change(accessor);
         accessor.erase("byteOffset");
         accessor.erase("sparse");
-        tinygltf::Accessor& model = contents_.model.accessors.at(index);
+        GltfAccessor& model = contents_.model.accessors.at(index);
         model.bufferView = accessor["bufferView"].get<int>();
         model.byteOffset = 0;
         model.componentType = accessor["componentType"].get<int>();
         model.normalized = accessor.value("normalized", false);
         model.count = accessor["count"].get<std::size_t>();
-        model.type = tinygltf_type(accessor["type"]);
-        model.sparse.isSparse = false;
+        model.components = component_count(accessor["type"].get<std::string>());
+        model.sparse.reset();
     }
 
     /// Puts `bytes` into a new buffer, and makes `view` cover all of it.
@@ -140,12 +139,12 @@ private:
         json["buffer"] = contents_.model.buffers.size();
         json["byteOffset"] = 0;
         json["byteLength"] = bytes.size();
-        json["target"] = stride > 0 ? TINYGLTF_TARGET_ARRAY_BUFFER : TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER;
+        json["target"] = stride > 0 ? kArrayBuffer : kElementArrayBuffer;
         if (stride > 0)
             json["byteStride"] = stride;
         else
             json.erase("byteStride");
-        tinygltf::BufferView& model = contents_.model.bufferViews.at(view);
+        GltfBufferView& model = contents_.model.bufferViews.at(view);
         model.buffer = static_cast<int>(contents_.model.buffers.size());
         model.byteOffset = 0;
         model.byteLength = bytes.size();
@@ -173,7 +172,7 @@ private:
 
     GltfContents& contents_;
     std::map<std::size_t, std::pair<std::size_t, int>> filled_; ///< accessor: compressed view, attribute
-    int index_type_ = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+    int index_type_ = kUnsignedInt;
     double total_ = 0; ///< bytes created
 };
 
@@ -214,7 +213,7 @@ void decompress_primitives(GltfContents& contents) {
     Decompressor decompressor(contents);
     for (auto& [view, users] : positions)
         decompressor.decompress(view, users);
-    contents.drop_extension(kDracoExtension);
+    drop_extension(contents.json, kDracoExtension);
 }
 
 } // namespace prt

@@ -6,8 +6,6 @@
 
 namespace prt {
 
-inline constexpr const char* kDracoExtension = "KHR_draco_mesh_compression";
-
 /// Returns whether any primitive of `json` is compressed.
 bool has_draco_primitives(const Json& json);
 

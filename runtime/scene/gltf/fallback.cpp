@@ -2,9 +2,9 @@
 
 #include "runtime/scene/gltf/vertex_fallback.h"
 
-#include "runtime/scene/gltf/fallback.h"
+#include "runtime/load/fallback.h"
 #include "runtime/scene/gltf/make_meshes_unique.h"
-#include "runtime/scene/gltf/transfer_json.h"
+#include "runtime/scene/gltf/write_transfer_json.h"
 
 #include <glm/common.hpp>
 #include <glm/gtc/type_precision.hpp>
@@ -20,28 +20,8 @@
 namespace prt {
 namespace {
 
-constexpr const char* kUnlit = "KHR_materials_unlit";
-/// Mark in the extras of an extension that makes a material unlit for the fallback.
-constexpr const char *kMark = "prtkit", *kMarked = "fallback";
-
-/// Returns the index of a primitive's material in the file; -1 if it has none.
-int material_of(const Json& primitive) {
-    const auto found = primitive.find("material");
-    return found != primitive.end() && found->is_number_unsigned() ? found->get<int>() : -1;
-}
-
 Json& material_at(Json& json, int material) {
     return json.at("materials").at(static_cast<std::size_t>(material));
-}
-
-bool is_unlit(const Json& material) {
-    return extension_of(material, kUnlit) != nullptr;
-}
-
-bool is_unlit_for_fallback(const Json& material) {
-    const Json* unlit = extension_of(material, kUnlit);
-    return unlit && unlit->contains("extras") && (*unlit)["extras"].is_object() &&
-           (*unlit)["extras"].value(kMark, Json()) == kMarked;
 }
 
 /// Returns whether a material's appearance is not only its reflected base color.
@@ -84,8 +64,9 @@ public:
             Json copy = material < 0 ? Json::object() : Json(material_at(json_, material));
             materials.push_back(std::move(copy));
         }
-        extensions_of(material_at(json_, known->second))[kUnlit] =
-            use_ == UnlitUse::fallback ? Json{{"extras", {{kMark, kMarked}}}} : Json::object();
+        extensions_of(material_at(json_, known->second))[kUnlitExtension] =
+            use_ == UnlitUse::fallback ? Json{{"extras", {{kFallbackMark, kFallbackMarked}}}}
+                                       : Json::object();
         return known->second;
     }
 
@@ -107,7 +88,7 @@ std::size_t add_colors(GltfContents& contents, const VertexArray& vertices,
     const std::size_t view =
         contents.add_buffer_view(std::as_bytes(std::span(colors)), sizeof(glm::u16vec4), true);
     return contents.add_accessor({{"bufferView", view},
-                                  {"componentType", TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT},
+                                  {"componentType", kUnsignedShort},
                                   {"normalized", true},
                                   {"count", colors.size()},
                                   {"type", "VEC4"}});
@@ -141,7 +122,7 @@ std::size_t show_light(GltfContents& contents, const Scene& scene, std::span<con
         ++count;
     }
     if (count > 0)
-        contents.use_extension(kUnlit);
+        contents.use_extension(kUnlitExtension);
     return count;
 }
 
@@ -152,44 +133,6 @@ std::size_t write_into(GltfContents& contents, const Scene& scene, std::span<con
     const std::size_t count = show_light(contents, scene, radiance, exposure, UnlitUse::fallback);
     extensions_of(contents.json)[kClusteredExtension]["fallback"] = {{"exposure", exposure}};
     return count;
-}
-
-/// Makes materials lit again that were unlit only for the fallback, and returns their indices.
-std::set<int> lit_again(GltfContents& contents) {
-    std::set<int> lit;
-    if (!contents.json.contains("materials"))
-        return lit;
-    Json& materials = contents.json["materials"];
-    for (std::size_t m = 0; m < std::min(materials.size(), contents.model.materials.size()); ++m) {
-        if (!is_unlit_for_fallback(materials[m]))
-            continue;
-        Json& extensions = materials[m]["extensions"];
-        extensions.erase(kUnlit);
-        contents.model.materials[m].extensions.erase(kUnlit);
-        if (extensions.empty())
-            materials[m].erase("extensions");
-        lit.insert(static_cast<int>(m));
-    }
-    if (std::ranges::none_of(materials, is_unlit))
-        contents.drop_extension(kUnlit);
-    return lit;
-}
-
-/// Restores a primitive's original colors; moves the fallback colors to the attribute that is removed with
-/// transfer.
-void exchange_colors(Json& attributes, std::map<std::string, int>& of_model) {
-    if (!attributes.contains("COLOR_0"))
-        return;
-    const Json fallback = attributes["COLOR_0"];
-    if (attributes.contains(kOtherColors))
-        attributes["COLOR_0"] = Json(attributes[kOtherColors]);
-    else
-        attributes.erase("COLOR_0");
-    attributes[kOtherColors] = fallback;
-    of_model.erase("COLOR_0");
-    for (const char* name : {"COLOR_0", kOtherColors})
-        if (attributes.contains(name))
-            of_model[name] = attributes[name].get<int>();
 }
 
 } // namespace
@@ -224,23 +167,6 @@ std::size_t write_unlit(GltfDocument& document, const Scene& scene, std::span<co
     return named(document, [&](GltfContents& contents) {
         return show_light(contents, scene, radiance, exposure, UnlitUse::only);
     });
-}
-
-void set_fallback_aside(GltfContents& contents) {
-    const Json* extension = extension_of(contents.json, kClusteredExtension);
-    if (!extension || !extension->contains("fallback"))
-        return;
-    const Json& exposure = extension->at("fallback").at("exposure");
-    if (!exposure.is_number() || !(exposure.get<double>() > 0))
-        throw Error("the exposure of the fallback is not a number greater than 0");
-    contents.json["extensions"][kClusteredExtension].erase("fallback");
-    const std::set<int> lit = lit_again(contents);
-    for (std::size_t m = 0; m < contents.model.meshes.size(); ++m)
-        for (std::size_t p = 0; p < contents.model.meshes[m].primitives.size(); ++p) {
-            Json& primitive = contents.json.at("meshes").at(m).at("primitives").at(p);
-            if (lit.contains(material_of(primitive)) && primitive.contains("attributes"))
-                exchange_colors(primitive["attributes"], contents.model.meshes[m].primitives[p].attributes);
-        }
 }
 
 } // namespace prt

@@ -1,7 +1,7 @@
 // Creates accessors with the elements of another in a new order.
 #include "runtime/scene/gltf/gathered_accessor.h"
 
-#include "runtime/scene/gltf/accessor.h"
+#include "runtime/load/accessor.h"
 
 #include <algorithm>
 #include <cstring>
@@ -39,7 +39,7 @@ std::vector<double> stored_values(int component_type, std::span<const std::byte>
 std::size_t add_vertex_accessor(GltfContents& contents, Json accessor, std::span<const std::byte> elements) {
     const int component_type = accessor["componentType"].get<int>();
     const auto components =
-        static_cast<std::size_t>(component_count(tinygltf_type(accessor["type"].get<std::string>())));
+        static_cast<std::size_t>(component_count(accessor["type"].get<std::string>()));
     const std::size_t size = component_bytes(component_type) * components, count = elements.size() / size;
     const std::size_t stride = (size + 3) / 4 * 4; // vertex attributes are aligned to 4 bytes
     std::vector<std::byte> padded(count * stride);
@@ -54,7 +54,7 @@ std::size_t add_vertex_accessor(GltfContents& contents, Json accessor, std::span
     return contents.add_accessor(std::move(accessor));
 }
 
-std::vector<std::byte> gathered_elements(const tinygltf::Model& model, int accessor,
+std::vector<std::byte> gathered_elements(const GltfModel& model, int accessor,
                                          const std::vector<std::uint32_t>& source) {
     const std::size_t size = check_accessor(model, accessor);
     const std::vector<std::byte> elements = read_elements(model, accessor);
@@ -73,9 +73,9 @@ std::size_t add_gathered_accessor(GltfContents& contents, const Json& reference,
 
 std::size_t add_index_accessor(GltfContents& contents, std::span<const std::uint32_t> indices) {
     const std::size_t view = contents.add_buffer_view(std::as_bytes(indices));
-    contents.json["bufferViews"][view]["target"] = TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER;
+    contents.json["bufferViews"][view]["target"] = kElementArrayBuffer;
     return contents.add_accessor({{"bufferView", view},
-                                  {"componentType", TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT},
+                                  {"componentType", kUnsignedInt},
                                   {"count", indices.size()},
                                   {"type", "SCALAR"}});
 }

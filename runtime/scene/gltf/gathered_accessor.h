@@ -19,7 +19,7 @@ namespace prt {
 std::size_t add_vertex_accessor(GltfContents& contents, Json accessor, std::span<const std::byte> elements);
 
 /// Returns the elements source[i] of an accessor, tightly packed.
-std::vector<std::byte> gathered_elements(const tinygltf::Model& model, int accessor,
+std::vector<std::byte> gathered_elements(const GltfModel& model, int accessor,
                                          const std::vector<std::uint32_t>& source);
 
 /// Adds an accessor whose element i is element source[i] of accessor `reference`, laid out for vertex

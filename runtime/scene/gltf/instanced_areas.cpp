@@ -2,10 +2,10 @@
 #include "prt/gltf/transfer_gltf.h"
 
 #include "prt/core/error.h"
-#include "runtime/scene/gltf/accessor.h"
+#include "runtime/load/accessor.h"
+#include "runtime/load/node_transforms.h"
 #include "runtime/scene/gltf/contents.h"
-#include "runtime/scene/gltf/node_transforms.h"
-#include "runtime/scene/gltf/transfer_json.h"
+#include "runtime/scene/gltf/write_transfer_json.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>

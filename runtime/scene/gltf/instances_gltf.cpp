@@ -1,11 +1,10 @@
 // Reads and writes factors of instances in glTF files: PRTKIT_instances of docs/format.md.
 #include "prt/gltf/transfer_gltf.h"
 
-#include "runtime/scene/gltf/accessor.h"
-#include "runtime/scene/gltf/allowance.h"
-#include "runtime/scene/gltf/even_placement.h"
-#include "runtime/scene/gltf/node_transforms.h"
-#include "runtime/scene/gltf/transfer_json.h"
+#include "runtime/load/allowance.h"
+#include "runtime/load/shared_instances.h"
+#include "runtime/load/node_transforms.h"
+#include "runtime/scene/gltf/write_transfer_json.h"
 #include "runtime/support/parallel.h"
 
 #include <algorithm>
@@ -16,79 +15,8 @@
 namespace prt {
 namespace {
 
-constexpr int kMaxSharedInstances = 1'000'000;
-
 Json three(const glm::vec3& v) {
     return {v.x, v.y, v.z};
-}
-
-glm::vec3 read_three(const Json& json) {
-    if (json.size() != 3)
-        throw Error("a box of its instances must have vectors of three numbers");
-    return {json[0].get<float>(), json[1].get<float>(), json[2].get<float>()};
-}
-
-InstanceBox read_box(const Json& json) {
-    const InstanceBox box{read_three(json.at("middle")), read_three(json.at("half"))};
-    for (int i = 0; i < 3; ++i)
-        if (!(std::abs(box.middle[i]) <= 1e9f && box.half[i] > 0 && box.half[i] <= 1e9f))
-            throw Error(
-                "a box of its instances is invalid: its center must be within 1e9, its half size in 0..1e9");
-    return box;
-}
-
-CodedFactors read_factors(const GltfContents& contents, const Json& json, std::size_t count) {
-    constexpr float kMaxScale = 500; // times 127, covers all factors that `coded` accepts
-    CodedFactors coded;
-    const Json& scales = json.at("scales");
-    if (scales.size() != kInstanceNumbers)
-        throw Error("the factors of its instances must have " + std::to_string(kInstanceNumbers) + " scales");
-    for (std::size_t j = 0; j < kInstanceNumbers; ++j) {
-        coded.scales[j] = scales[j].get<float>();
-        if (!(coded.scales[j] >= 0 && coded.scales[j] <= kMaxScale))
-            throw Error("a scale of the factors of its instances is negative, not finite or too large");
-    }
-    const std::span<const unsigned char> bytes =
-        buffer_view_bytes(contents.model, json.at("bufferView").get<int>());
-    if (bytes.size() != count * kInstanceNumbers)
-        throw Error("the factors of its instances have " + std::to_string(bytes.size()) +
-                    " bytes, but must have " + std::to_string(count * kInstanceNumbers));
-    for (const unsigned char byte : bytes)
-        coded.bytes.push_back(static_cast<std::int8_t>(byte));
-    return coded;
-}
-
-StoredInstances read_stored(const GltfContents& contents) {
-    const Json* found = find_extension(contents, kInstancesExtension, kInstancesVersion);
-    if (!found)
-        throw Error(std::string("has no extension ") + kInstancesExtension);
-    const Json& extension = *found;
-    const auto count = static_cast<std::size_t>(
-        whole_number(extension.at("count"), "the number of instances", 1, kMaxSharedInstances));
-    StoredInstances stored{decoded(read_factors(contents, extension.at("factors"), count)), {}};
-    if (extension.at("boxes").empty())
-        throw Error("its instances have no boxes");
-    for (const Json& box : extension.at("boxes"))
-        stored.boxes.push_back(read_box(box));
-    return stored;
-}
-
-/// Returns the instance of a node's extension, without its vertex arrays.
-FileInstance read_instance(const StoredInstances& stored, int node, const Json& extension,
-                           const glm::dmat4& world) {
-    const auto number = static_cast<std::size_t>(whole_number(extension.at("first"),
-                                                              "\"first\" of node " + std::to_string(node), 0,
-                                                              static_cast<int>(stored.factors.size()) - 1));
-    const auto box =
-        static_cast<std::size_t>(whole_number(extension.at("box"), "\"box\" of node " + std::to_string(node),
-                                              0, static_cast<int>(stored.boxes.size()) - 1));
-    const std::optional<MeshPlacement> placement = even_placement(node, world);
-    if (!placement)
-        throw Error(
-            "node " + std::to_string(node) +
-            " mirrors or non-uniformly scales an instance that shares its transfer; undo this, or bake "
-            "with --instances own");
-    return {node, number, {stored.factors[number], placement->rotation, stored.boxes[box]}, {}, {}, world};
 }
 
 bool same_vertices(const Scene& scene, std::size_t array, const Scene& stored, std::size_t other) {
@@ -133,7 +61,7 @@ std::vector<std::size_t> stored_arrays(const GltfContents& contents, const Scene
 }
 
 std::map<int, FileInstance> instances_of(const GltfContents& contents, const Scene& scene) {
-    const StoredInstances factors = read_stored(contents);
+    const StoredInstances factors = read_stored_instances(contents);
     std::map<int, FileInstance> instances;
     std::map<int, glm::dmat4> world;
     for (const NodeTransform& transform : world_transforms(contents.model))

@@ -1,10 +1,10 @@
 // Scenes with the coarser levels of their nodes.
 #include "prt/gltf/levels.h"
 
+#include "runtime/load/fallback.h"
+#include "runtime/load/own_attributes.h"
 #include "runtime/scene/gltf/extraction.h"
-#include "runtime/scene/gltf/fallback.h"
-#include "runtime/scene/gltf/own_attributes.h"
-#include "runtime/scene/gltf/transfer_json.h"
+#include "runtime/scene/gltf/write_transfer_json.h"
 
 #include <algorithm>
 #include <set>
@@ -23,8 +23,7 @@ std::vector<std::size_t> primitives_of(const Scene& scene, const std::set<int>& 
     return chosen;
 }
 
-LeveledNode leveled_node(const GltfContents& contents, const LeveledExtraction& extraction,
-                         const NodeLevels& levels) {
+LeveledNode leveled_node(const GltfContents& contents, const Geometry& extraction, const NodeLevels& levels) {
     const Scene& scene = extraction.scene;
     LeveledNode result{levels.node, node_name(contents.model, levels.node), levels.by_name, {}, {}};
     result.finest =
@@ -68,10 +67,10 @@ bool has_levels(const GltfDocument& document) {
 
 LeveledScene extract_levels(const GltfDocument& document) {
     return named(document, [](const GltfContents& contents) {
-        LeveledExtraction extraction = extract_leveled(contents);
+        Geometry extraction = extract_with_levels(contents);
         LeveledScene result;
-        result.notices = std::move(extraction.notices);
-        for (const NodeLevels& levels : extraction.levels) {
+        result.notices = std::move(extraction.nodes.notices);
+        for (const NodeLevels& levels : extraction.nodes.levels) {
             LeveledNode node = leveled_node(contents, extraction, levels);
             if (!node.coarser.empty())
                 result.nodes.push_back(std::move(node));

@@ -1,11 +1,10 @@
 // Reads and writes transfer of texels in glTF files: PRTKIT_lightmap of docs/format.md.
 
 #include "prt/gltf/transfer_gltf.h"
-#include "runtime/support/counted.h"
-
-#include "runtime/scene/gltf/accessor.h"
-#include "runtime/scene/gltf/allowance.h"
-#include "runtime/scene/gltf/clustered_json.h"
+#include "runtime/load/accessor.h"
+#include "runtime/load/allowance.h"
+#include "runtime/load/texel_transfer.h"
+#include "runtime/scene/gltf/write_clustered_json.h"
 #include "runtime/scene/gltf/make_meshes_unique.h"
 
 #include <algorithm>
@@ -14,8 +13,6 @@
 
 namespace prt {
 namespace {
-
-constexpr int kLightmapVersion = 2;
 
 Json maps_json(const LightmapLayout& layout) {
     Json maps = Json::array();
@@ -37,47 +34,6 @@ Json& write_layout(GltfContents& contents, const Scene& scene, const LightmapLay
                                                                {"order", transfer.order},
                                                                {"terms", terms_json(transfer)},
                                                                {"maps", maps_json(layout)}};
-}
-
-LightmapSize read_map(const Json& json) {
-    LightmapSize map{whole_number(json.at("width"), "the width of a map", 1, kMaxLightmapTexels),
-                     whole_number(json.at("height"), "the height of a map", 1, kMaxLightmapTexels)};
-    map.repeats = json.value("repeats", false);
-    return map;
-}
-
-LightmapPlacement read_position(const Json& json, const VertexArray& vertices, std::size_t maps) {
-    const LightmapPlacement position{
-        static_cast<std::size_t>(
-            whole_number(json.at("map"), "the index of a map", 0, static_cast<int>(maps) - 1)),
-        whole_number(json.at("texCoord"), "texCoord", 0, 1000)};
-    const auto set = static_cast<std::size_t>(position.texcoord);
-    if (set >= vertices.texcoords.size() || vertices.texcoords[set].empty())
-        throw Error("it has no TEXCOORD_" + std::to_string(position.texcoord) +
-                    ", but its lightmap needs it");
-    return position;
-}
-
-LightmapLayout read_layout_of_maps(const GltfContents& contents, const Scene& scene, const Json& extension) {
-    LightmapLayout layout;
-    const Json& maps = extension.at("maps");
-    if (!maps.is_array() || maps.empty())
-        throw Error("the list of maps is missing or empty");
-    for (const Json& map : maps)
-        layout.maps.push_back(read_map(map));
-    check_allowed(8 * static_cast<double>(layout.texels()), contents.file_bytes, "its lightmaps");
-    for (const Primitive& primitive : scene.primitives) {
-        const Json* of_primitive = extension_of(primitive_json(contents, primitive), kLightmapExtension);
-        if (!of_primitive)
-            throw Error(primitive_name(primitive) + " has no " + kLightmapExtension);
-        try {
-            layout.placements.push_back(
-                read_position(*of_primitive, scene.vertex_arrays[primitive.vertices], layout.maps.size()));
-        } catch (const std::exception& error) {
-            throw Error(primitive_name(primitive) + ": " + in_plain_words(error));
-        }
-    }
-    return layout;
 }
 
 /// Returns the bytes of {"bufferView": ...} as 32-bit integers.
@@ -182,62 +138,6 @@ void write_encoded(GltfContents& contents, const Scene& scene, const EncodedLigh
     extension["bake"] = record_json(lightmap.compressed.record);
 }
 
-/// Reads the word images of all maps. One image may hold several words.
-std::vector<std::vector<std::byte>> read_images(const GltfContents& contents, const Json& maps,
-                                                std::size_t words) {
-    std::vector<std::vector<std::byte>> all;
-    double bytes = 0;
-    for (const Json& map : maps) {
-        const Json& images = map.at("images");
-        if (!images.is_array() || images.size() != words)
-            throw Error("a map has " + counted(images.size(), "image") + ", but a texel has " +
-                        std::to_string(words) + " words");
-        if (contents.images.empty())
-            throw Error("the file has no images for the maps");
-        for (const Json& image : images) {
-            const int most = static_cast<int>(contents.images.size()) - 1;
-            const auto& file =
-                contents.images[static_cast<std::size_t>(whole_number(image, "an image of a map", 0, most))];
-            check_allowed(bytes += static_cast<double>(file.size()), contents.file_bytes,
-                          "the images of its lightmaps");
-            all.push_back(file);
-        }
-    }
-    return all;
-}
-
-EncodedLightmap read_encoded(const GltfContents& contents, const Scene& scene, const Json& extension) {
-    EncodedLightmap encoded;
-    CompressedLightmap& lightmap = encoded.lightmap;
-    ClusteredTransfer& transfer = lightmap.compressed.transfer;
-    lightmap.layout = read_layout_of_maps(contents, scene, extension);
-    transfer.bases = read_clusters_of(extension);
-    lightmap.compressed.record = read_record(extension.value("bake", Json::object()));
-    read_bases(contents, extension.at("bases"), transfer.bases);
-    read_packing(contents, extension.at("packing"), transfer);
-    const double bytes = static_cast<double>(transfer.receivers.stride() + sizeof(std::uint16_t));
-    check_allowed(bytes * static_cast<double>(lightmap.layout.texels()), contents.file_bytes,
-                  "the texels of its lightmaps");
-    encoded.images =
-        read_images(contents, extension["maps"], static_cast<std::size_t>(transfer.receivers.words));
-    return encoded;
-}
-
-/// Returns the top-level extension of a file, if it has one; the file must then have no other transfer
-/// extension.
-const Json* find_lightmap(const GltfContents& contents) {
-    const Json* extension = find_extension(contents, kLightmapExtension, kLightmapVersion);
-    for (const char* other : {kTransferExtension, kClusteredExtension})
-        if (extension && extension_of(contents.json, other))
-            throw Error(std::string("has ") + kLightmapExtension + " and " + other +
-                        "; a file can have transfer at texels or at vertices, not both");
-    if (extension && extension->contains("raw") && extension->contains("components"))
-        throw Error("has both raw vectors and clusters");
-    if (extension && extension->contains("predictors"))
-        throw Error("has predictors, but texels do not support them");
-    return extension;
-}
-
 } // namespace
 
 void write_lightmap(GltfDocument& document, const Scene& scene, const BakedLightmap& lightmap) {
@@ -264,10 +164,9 @@ void write_encoded_lightmap(GltfDocument& document, const Scene& scene, const En
 
 std::optional<EncodedLightmap> read_encoded_lightmap(const GltfDocument& document, const Scene& scene) {
     return named(document, [&](const GltfContents& contents) -> std::optional<EncodedLightmap> {
-        const Json* extension = find_lightmap(contents);
-        if (!extension || extension->contains("raw"))
-            return std::nullopt;
-        return read_encoded(contents, scene, *extension);
+        return read_encoded_lightmap(contents, scene, contents.images.size(), [&](std::size_t image) {
+            return std::span<const std::byte>(contents.images[image]);
+        });
     });
 }
 

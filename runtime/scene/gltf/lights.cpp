@@ -3,7 +3,7 @@
 #include "runtime/scene/gltf/lights.h"
 
 #include "prt/core/error.h"
-#include "runtime/scene/gltf/transfer_json.h"
+#include "runtime/load/transfer_json.h"
 #include "runtime/support/counted.h"
 
 #include <glm/geometric.hpp>

@@ -2,9 +2,9 @@
 
 // Lights of KHR_lights_punctual.
 
-#include "prt/gltf/scene.h"
+#include "prt/load/scene.h"
 #include "runtime/scene/gltf/contents.h"
-#include "runtime/scene/gltf/node_transforms.h"
+#include "runtime/load/node_transforms.h"
 
 #include <vector>
 

@@ -2,11 +2,11 @@
 // scene.
 #include "runtime/scene/gltf/make_meshes_unique.h"
 
-#include "runtime/scene/gltf/accessor.h"
-#include "runtime/scene/gltf/allowance.h"
+#include "runtime/load/accessor.h"
+#include "runtime/load/allowance.h"
 #include "runtime/scene/gltf/gathered_accessor.h"
-#include "runtime/scene/gltf/json_text.h"
-#include "runtime/scene/triangle_normal.h"
+#include "runtime/load/json_text.h"
+#include "runtime/load/triangle_normal.h"
 
 #include <glm/geometric.hpp>
 
@@ -88,7 +88,7 @@ void replace_vertices(GltfContents& contents, Json& primitive, const std::vector
     Json attributes = gathered(primitive["attributes"], true);
     const std::size_t view = contents.add_buffer_view(std::as_bytes(normals), sizeof(glm::vec3), true);
     attributes["NORMAL"] = contents.add_accessor({{"bufferView", view},
-                                                  {"componentType", TINYGLTF_COMPONENT_TYPE_FLOAT},
+                                                  {"componentType", kFloat},
                                                   {"count", normals.size()},
                                                   {"type", "VEC3"}});
     primitive["attributes"] = std::move(attributes);

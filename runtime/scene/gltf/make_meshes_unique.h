@@ -2,7 +2,7 @@
 
 // Separate meshes for nodes.
 
-#include "prt/gltf/scene.h"
+#include "prt/load/scene.h"
 #include "runtime/scene/gltf/contents.h"
 
 namespace prt {

@@ -85,16 +85,9 @@ public:
     MaterialReader(const tinygltf::Model& model, Scene& scene, UnitRange& range)
         : model_(model), scene_(scene), range_(range) {}
 
-    Material read(const tinygltf::Material& file) {
-        Material material;
-        material.name = file.name;
+    /// Adds what `read_base_materials` does not read.
+    void complete(const tinygltf::Material& file, Material& material) {
         read_reflection(file, material);
-        if (file.alphaMode == "MASK")
-            material.alpha_mode = AlphaMode::mask;
-        else if (file.alphaMode == "BLEND")
-            material.alpha_mode = AlphaMode::blend;
-        material.alpha_cutoff = static_cast<float>(file.alphaCutoff);
-        material.double_sided = file.doubleSided;
         const auto& extensions = file.extensions;
         if (const auto e = extensions.find("KHR_materials_diffuse_transmission"); e != extensions.end())
             material.transmission = read_transmission(e->second);
@@ -109,7 +102,6 @@ public:
             share_image(*colors, false);
         for (TextureUse* numbers : {&material.metal.texture, &material.glass.texture})
             share_image(*numbers, true);
-        return material;
     }
 
 private:
@@ -126,19 +118,14 @@ private:
     void read_reflection(const tinygltf::Material& file, Material& material) {
         const auto glossy = file.extensions.find("KHR_materials_pbrSpecularGlossiness");
         if (glossy != file.extensions.end()) { // takes precedence over the core material
-            material.base_color = color_member<glm::vec4>(glossy->second, "diffuseFactor");
             material.base_color_texture = texture_member(glossy->second, "diffuseTexture");
-            range_.clamp(material.base_color, "diffuseFactor of materials");
             return;
         }
         const tinygltf::PbrMetallicRoughness& pbr = file.pbrMetallicRoughness;
-        for (std::size_t c = 0; c < 4 && c < pbr.baseColorFactor.size(); ++c)
-            material.base_color[static_cast<int>(c)] = static_cast<float>(pbr.baseColorFactor[c]);
         material.base_color_texture = texture_use(pbr.baseColorTexture);
         material.metal.factor = static_cast<float>(pbr.metallicFactor);
         material.metal.roughness = static_cast<float>(pbr.roughnessFactor);
         material.metal.texture = texture_use(pbr.metallicRoughnessTexture);
-        range_.clamp(material.base_color, "baseColorFactor of materials");
         range_.clamp(material.metal.factor, "metallicFactor of materials");
         range_.clamp(material.metal.roughness, "roughnessFactor of materials");
     }
@@ -239,9 +226,8 @@ private:
 
 void read_materials(const tinygltf::Model& model, Scene& scene, UnitRange& range) {
     MaterialReader reader(model, scene, range);
-    for (const tinygltf::Material& file : model.materials)
-        scene.materials.push_back(reader.read(file));
-    scene.materials.emplace_back(); // a rough metal according to glTF; bounces treat it as diffuse
+    for (std::size_t m = 0; m < model.materials.size(); ++m)
+        reader.complete(model.materials[m], scene.materials.at(m));
 }
 
 std::vector<std::string> unread_material_notices(const tinygltf::Model& model, const Scene& scene) {

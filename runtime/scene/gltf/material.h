@@ -2,8 +2,8 @@
 
 // Reading of glTF materials.
 
-#include "prt/gltf/scene.h"
-#include "runtime/scene/gltf/unit_range.h"
+#include "prt/load/scene.h"
+#include "runtime/load/unit_range.h"
 
 #include <tiny_gltf.h>
 
@@ -12,8 +12,9 @@
 
 namespace prt {
 
-/// Adds the materials of the file to `scene`, then the default material. The images of the file must be in
-/// `scene` already; textures without an image get an empty one.
+/// Adds textures and the properties that matter for light to the materials of `scene`, which are those of
+/// `read_base_materials`. The images of the file must be in `scene` already; textures without an image get an
+/// empty one.
 void read_materials(const tinygltf::Model& model, Scene& scene, UnitRange& range);
 
 /// Returns the ignored properties of the materials that `scene` uses, one line each.

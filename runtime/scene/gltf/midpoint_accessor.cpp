@@ -1,7 +1,7 @@
 // Computes attributes of edge midpoints.
 #include "runtime/scene/gltf/midpoint_accessor.h"
 
-#include "runtime/scene/gltf/accessor.h"
+#include "runtime/load/accessor.h"
 #include "runtime/scene/gltf/gathered_accessor.h"
 
 #include <algorithm>
@@ -75,10 +75,9 @@ void append_middles(std::vector<Stored>& values, std::size_t components, std::sp
 
 } // namespace
 
-MidpointRule midpoint_rule(const tinygltf::Model& model, std::string_view name, int accessor,
-                           AttributeOf owner) {
-    const tinygltf::Accessor& a = get_accessor(model, accessor);
-    const bool whole_numbers = a.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT && !a.normalized;
+MidpointRule midpoint_rule(const GltfModel& model, std::string_view name, int accessor, AttributeOf owner) {
+    const GltfAccessor& a = get_accessor(model, accessor);
+    const bool whole_numbers = a.componentType != kFloat && !a.normalized;
     if (name == "POSITION")
         return MidpointRule::float_mean;
     if (name == "NORMAL" || name == "TANGENT")
@@ -92,12 +91,12 @@ MidpointRule midpoint_rule(const tinygltf::Model& model, std::string_view name, 
 std::size_t add_midpoint_accessor(GltfContents& contents, int reference, std::span<const Midpoint> midpoints,
                                   MidpointRule rule) {
     Json accessor = contents.json["accessors"][static_cast<std::size_t>(reference)];
-    const tinygltf::Accessor& old = get_accessor(contents.model, reference);
-    const auto components = static_cast<std::size_t>(component_count(old.type));
+    const GltfAccessor& old = get_accessor(contents.model, reference);
+    const auto components = static_cast<std::size_t>(old.components);
     if (rule == MidpointRule::float_mean) {
         std::vector<float> values = read_floats(contents.model, reference, static_cast<int>(components));
         append_middles(values, components, midpoints, rule);
-        accessor["componentType"] = TINYGLTF_COMPONENT_TYPE_FLOAT;
+        accessor["componentType"] = kFloat;
         accessor.erase("normalized");
         return add_vertex_accessor(contents, std::move(accessor), std::as_bytes(std::span(values)));
     }

@@ -21,7 +21,7 @@ enum class MidpointRule {
 
 /// Owner of an attribute: a primitive, or a morph target, whose values are differences.
 enum class AttributeOf { vertex, target };
-MidpointRule midpoint_rule(const tinygltf::Model& model, std::string_view name, int accessor,
+MidpointRule midpoint_rule(const GltfModel& model, std::string_view name, int accessor,
                            AttributeOf owner);
 
 /// Adds an accessor with the elements of accessor `reference`, followed by those of `midpoints`. Returns its

@@ -2,7 +2,7 @@
 #include "runtime/scene/gltf/midpoint_joints.h"
 
 #include "prt/core/error.h"
-#include "runtime/scene/gltf/accessor.h"
+#include "runtime/load/accessor.h"
 #include "runtime/scene/gltf/gathered_accessor.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ struct Influence {
 /// All sets of a vertex array, in types that can hold each of them.
 struct Skinning {
     std::size_t sets = 0;
-    int joint_type = TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, weight_type = -1; ///< component types
+    int joint_type = kUnsignedByte, weight_type = -1; ///< component types
     std::vector<Influence> influences;                                        ///< [vertices][4 sets]
 };
 
@@ -35,7 +35,7 @@ std::string name_of(const char* kind, std::size_t set) {
     return kind + std::to_string(set);
 }
 
-Skinning read_skinning(const tinygltf::Model& model, const Json& attributes) {
+Skinning read_skinning(const GltfModel& model, const Json& attributes) {
     Skinning skin;
     while (attributes.contains(name_of("JOINTS_", skin.sets)) &&
            attributes.contains(name_of("WEIGHTS_", skin.sets)))
@@ -56,7 +56,7 @@ Skinning read_skinning(const tinygltf::Model& model, const Json& attributes) {
                   weight_type = get_accessor(model, weights_at).componentType;
         skin.joint_type = std::max(skin.joint_type, joint_type); // a larger constant is the wider type
         skin.weight_type =
-            set == 0 || skin.weight_type == weight_type ? weight_type : TINYGLTF_COMPONENT_TYPE_FLOAT;
+            set == 0 || skin.weight_type == weight_type ? weight_type : kFloat;
     }
     return skin;
 }
@@ -111,9 +111,9 @@ void append_middles(Skinning& skin, std::span<const Midpoint> midpoints) {
         std::vector<Influence> here =
             middle(all.subspan(m.first * most, most), all.subspan(m.second * most, most), most);
         const bool any = here.front().weight > 0;
-        if (any && skin.weight_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE)
+        if (any && skin.weight_type == kUnsignedByte)
             round_weights(here, std::numeric_limits<std::uint8_t>::max());
-        if (any && skin.weight_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT)
+        if (any && skin.weight_type == kUnsignedShort)
             round_weights(here, std::numeric_limits<std::uint16_t>::max());
         for (Influence& i : here)
             if (i.weight == 0)
@@ -159,7 +159,7 @@ void add_midpoint_joints(GltfContents& contents, Json& attributes, std::span<con
         const auto like = [&](const Json& reference, int component_type) {
             Json accessor = contents.json["accessors"][reference.get<std::size_t>()];
             accessor["componentType"] = component_type;
-            if (component_type == TINYGLTF_COMPONENT_TYPE_FLOAT)
+            if (component_type == kFloat)
                 accessor.erase("normalized");
             return accessor;
         };

@@ -2,8 +2,8 @@
 #include "runtime/scene/gltf/read_animations.h"
 
 #include "prt/core/error.h"
-#include "runtime/scene/gltf/accessor.h"
-#include "runtime/scene/gltf/allowance.h"
+#include "runtime/load/accessor.h"
+#include "runtime/load/allowance.h"
 #include "runtime/support/counted.h"
 
 #include <algorithm>
@@ -35,7 +35,7 @@ Interpolation interpolation_of(const std::string& name) {
     throw Error("its interpolation '" + name + "' is not LINEAR, STEP or CUBICSPLINE");
 }
 
-std::vector<float> read_times(const tinygltf::Model& model, int accessor) {
+std::vector<float> read_times(const GltfModel& model, int accessor) {
     std::vector<float> times = read_floats(model, accessor, 1);
     if (times.empty())
         throw Error("it has no keyframes");
@@ -48,8 +48,7 @@ std::vector<float> read_times(const tinygltf::Model& model, int accessor) {
     return times;
 }
 
-std::vector<glm::vec4> read_values(const tinygltf::Model& model, int accessor,
-                                   const AnimationChannel& channel) {
+std::vector<glm::vec4> read_values(const GltfModel& model, int accessor, const AnimationChannel& channel) {
     const std::size_t components = channel.part == AnimatedPart::rotation ? 4 : 3,
                       of_key = channel.interpolation == Interpolation::cubic_spline ? 3 : 1;
     const std::vector<float> numbers = read_floats(model, accessor, static_cast<int>(components));
@@ -72,8 +71,7 @@ std::vector<glm::vec4> read_values(const tinygltf::Model& model, int accessor,
 }
 
 /// Reads a channel; empty if it does not move a node.
-std::optional<AnimationChannel> read_channel(const tinygltf::Model& model,
-                                             const tinygltf::Animation& animation,
+std::optional<AnimationChannel> read_channel(const GltfModel& model, const tinygltf::Animation& animation,
                                              const tinygltf::AnimationChannel& file) {
     const std::optional<AnimatedPart> part = animated_part(file.target_path);
     if (!part || file.target_node == -1)
@@ -107,7 +105,7 @@ double speed_of(const Json& animation) {
 void check_keys(const GltfContents& contents) {
     constexpr double kTime = 8, kValue = 40; // bytes while they are read
     double bytes = 0;
-    for (const tinygltf::Animation& animation : contents.model.animations)
+    for (const tinygltf::Animation& animation : contents.parsed.animations)
         for (const tinygltf::AnimationChannel& channel : animation.channels) {
             const auto sampler = static_cast<std::size_t>(channel.sampler);
             if (channel.sampler < 0 || sampler >= animation.samplers.size())
@@ -122,11 +120,11 @@ void check_keys(const GltfContents& contents) {
 } // namespace
 
 std::vector<Animation> read_animations(const GltfContents& contents) {
-    const tinygltf::Model& model = contents.model;
+    const GltfModel& model = contents.model;
     check_keys(contents);
     std::vector<Animation> animations;
-    for (std::size_t a = 0; a < model.animations.size(); ++a) {
-        const tinygltf::Animation& file = model.animations[a];
+    for (std::size_t a = 0; a < contents.parsed.animations.size(); ++a) {
+        const tinygltf::Animation& file = contents.parsed.animations[a];
         Animation animation{file.name, 0, speed_of(contents.json["animations"][a]), {}};
         for (std::size_t c = 0; c < file.channels.size(); ++c) {
             try {

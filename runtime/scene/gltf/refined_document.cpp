@@ -6,7 +6,7 @@
 #include "runtime/scene/gltf/midpoint_accessor.h"
 #include "runtime/scene/gltf/midpoint_joints.h"
 #include "runtime/scene/gltf/reparse.h"
-#include "runtime/scene/gltf/transfer_json.h"
+#include "runtime/scene/gltf/write_transfer_json.h"
 
 #include <map>
 #include <optional>

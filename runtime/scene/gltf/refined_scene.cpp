@@ -1,7 +1,7 @@
 // Applies a refinement to a scene in memory.
 #include "prt/gltf/refinement.h"
 
-#include "runtime/scene/triangle_normal.h"
+#include "runtime/load/triangle_normal.h"
 
 namespace prt {
 namespace {

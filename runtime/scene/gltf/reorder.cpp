@@ -2,11 +2,11 @@
 #include "runtime/scene/gltf/reorder.h"
 
 #include "prt/core/error.h"
-#include "runtime/scene/gltf/accessor.h"
+#include "runtime/load/accessor.h"
 #include "runtime/scene/gltf/contents.h"
 #include "runtime/scene/gltf/gathered_accessor.h"
 #include "runtime/scene/gltf/make_meshes_unique.h"
-#include "runtime/scene/gltf/transfer_json.h"
+#include "runtime/scene/gltf/write_transfer_json.h"
 
 #include <meshoptimizer.h>
 

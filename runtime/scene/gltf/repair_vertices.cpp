@@ -2,10 +2,10 @@
 #include "runtime/scene/gltf/repair_vertices.h"
 
 #include "prt/core/error.h"
-#include "runtime/scene/gltf/accessor.h"
-#include "runtime/scene/gltf/allowance.h"
-#include "runtime/scene/gltf/triangles.h"
-#include "runtime/scene/triangle_normal.h"
+#include "runtime/load/accessor.h"
+#include "runtime/load/allowance.h"
+#include "runtime/load/triangle_normal.h"
+#include "runtime/load/triangles.h"
 #include "runtime/support/counted.h"
 
 #include <algorithm>
@@ -19,9 +19,9 @@
 namespace prt {
 namespace {
 
-bool is_floats(const tinygltf::Model& model, int accessor, int type) {
-    const tinygltf::Accessor& a = get_accessor(model, accessor);
-    return a.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT && a.type == type && a.count > 0;
+bool is_floats(const GltfModel& model, int accessor, int components) {
+    const GltfAccessor& a = get_accessor(model, accessor);
+    return a.componentType == kFloat && a.components == components && a.count > 0;
 }
 
 /// Values of an accessor, some of which are unusable.
@@ -32,7 +32,7 @@ struct Damaged {
 
 /// Returns the values of an accessor and its unusable elements; no value if all elements are usable.
 template <class IsUsable>
-std::optional<Damaged> find_damaged(const tinygltf::Model& model, int accessor, std::size_t width,
+std::optional<Damaged> find_damaged(const GltfModel& model, int accessor, std::size_t width,
                                     IsUsable&& is_usable) {
     Damaged damaged{read_floats(model, accessor, static_cast<int>(width)), {}};
     for (std::size_t i = 0; i * width < damaged.values.size(); ++i)
@@ -47,14 +47,14 @@ std::optional<Damaged> find_damaged(const tinygltf::Model& model, int accessor, 
 void give_own_values(GltfContents& contents, std::size_t accessor, std::span<const float> values) {
     const std::size_t view = contents.add_buffer_view(std::as_bytes(values));
     const Json& json = contents.json["bufferViews"][view];
-    tinygltf::BufferView& added = contents.model.bufferViews.emplace_back();
+    GltfBufferView& added = contents.model.bufferViews.emplace_back();
     added.buffer = 0;
     added.byteOffset = json["byteOffset"].get<std::size_t>();
     added.byteLength = values.size_bytes();
-    tinygltf::Accessor& model = contents.model.accessors[accessor];
+    GltfAccessor& model = contents.model.accessors[accessor];
     model.bufferView = static_cast<int>(view);
     model.byteOffset = 0;
-    model.sparse.isSparse = false;
+    model.sparse.reset();
     Json& of_file = contents.json["accessors"][accessor];
     of_file["bufferView"] = view;
     for (const char* key : {"sparse", "byteOffset"})
@@ -64,14 +64,14 @@ void give_own_values(GltfContents& contents, std::size_t accessor, std::span<con
 /// Writes the elements of `accessor` that were damaged and have been repaired into the document.
 void write_back(GltfContents& contents, int accessor, std::size_t width, const Damaged& damaged) {
     const auto index = static_cast<std::size_t>(accessor);
-    const tinygltf::Accessor& model = contents.model.accessors[index];
+    const GltfAccessor& model = contents.model.accessors[index];
     for (const char* key : {"min", "max"}) // they belong to the replaced values
         contents.json["accessors"][index].erase(key);
-    if (model.bufferView < 0 || model.sparse.isSparse) {
+    if (model.bufferView < 0 || model.sparse) {
         give_own_values(contents, index, damaged.values);
         return;
     }
-    const tinygltf::BufferView& view = contents.model.bufferViews[static_cast<std::size_t>(model.bufferView)];
+    const GltfBufferView& view = contents.model.bufferViews[static_cast<std::size_t>(model.bufferView)];
     const std::size_t size = width * sizeof(float), stride = view.byteStride > 0 ? view.byteStride : size;
     for (const std::size_t i : damaged.elements)
         std::memcpy(&contents.binary()[view.byteOffset + model.byteOffset + i * stride],
@@ -79,10 +79,10 @@ void write_back(GltfContents& contents, int accessor, std::size_t width, const D
 }
 
 /// Sets texture coordinates that are not finite to zero. Returns their number.
-std::size_t repair_texcoords(GltfContents& contents, const tinygltf::Primitive& primitive) {
+std::size_t repair_texcoords(GltfContents& contents, const GltfPrimitive& primitive) {
     std::size_t replaced = 0;
     for (const auto& [name, accessor] : primitive.attributes) {
-        if (!name.starts_with("TEXCOORD_") || !is_floats(contents.model, accessor, TINYGLTF_TYPE_VEC2))
+        if (!name.starts_with("TEXCOORD_") || !is_floats(contents.model, accessor, 2))
             continue;
         std::optional<Damaged> damaged = find_damaged(contents.model, accessor, 2, [](const float* uv) {
             return std::isfinite(uv[0]) && std::isfinite(uv[1]);
@@ -97,7 +97,7 @@ std::size_t repair_texcoords(GltfContents& contents, const tinygltf::Primitive& 
     return replaced;
 }
 
-int attribute(const tinygltf::Primitive& primitive, const char* name) {
+int attribute(const GltfPrimitive& primitive, const char* name) {
     const auto found = primitive.attributes.find(name);
     return found == primitive.attributes.end() ? -1 : found->second;
 }
@@ -107,10 +107,10 @@ class NormalRepair {
 public:
     explicit NormalRepair(GltfContents& contents) : contents_(contents) {}
 
-    void add(const tinygltf::Primitive& primitive) {
+    void add(const GltfPrimitive& primitive) {
         const int normal = attribute(primitive, "NORMAL"), position = attribute(primitive, "POSITION");
         if (normal < 0 || position < 0 || !is_triangle_mode(primitive.mode) ||
-            !is_floats(contents_.model, normal, TINYGLTF_TYPE_VEC3))
+            !is_floats(contents_.model, normal, 3))
             return;
         const auto [found, is_new] = normals_.try_emplace(normal);
         if (is_new)
@@ -144,7 +144,7 @@ private:
         std::vector<glm::dvec3> sums;
     };
 
-    void add_triangles(const tinygltf::Primitive& primitive, int position, Normals& normals) {
+    void add_triangles(const GltfPrimitive& primitive, int position, Normals& normals) {
         // Work per element, counted in bytes: limits files that use one accessor in many primitives.
         constexpr double kElement = 64;
         const std::vector<float> p = read_floats(contents_.model, position, 3);

@@ -2,9 +2,9 @@
 
 #include "runtime/scene/gltf/rigid_parts.h"
 
-#include "runtime/scene/gltf/accessor.h"
-#include "runtime/scene/gltf/node_transforms.h"
-#include "runtime/scene/gltf/transfer_json.h"
+#include "runtime/load/accessor.h"
+#include "runtime/load/node_transforms.h"
+#include "runtime/scene/gltf/write_transfer_json.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -24,17 +24,17 @@ using Triangles = std::map<std::size_t, std::vector<std::size_t>>;
 /// The node hierarchy, with the node that moves each node.
 class Carriers {
 public:
-    explicit Carriers(const tinygltf::Model& model)
+    Carriers(const GltfModel& model, const std::vector<tinygltf::Animation>& animations)
         : parents_(model.nodes.size(), -1), moves_(model.nodes.size()) {
         for (std::size_t n = 0; n < model.nodes.size(); ++n)
             for (const int child : model.nodes[n].children)
                 if (is_node(child))
                     parents_[static_cast<std::size_t>(child)] = static_cast<int>(n);
-        for (const tinygltf::Animation& animation : model.animations)
+        for (const tinygltf::Animation& animation : animations)
             for (const tinygltf::AnimationChannel& channel : animation.channels)
                 if (is_node(channel.target_node) && channel.target_path != "weights")
                     moves_[static_cast<std::size_t>(channel.target_node)] = true;
-        for (const tinygltf::Skin& skin : model.skins)
+        for (const GltfSkin& skin : model.skins)
             for (const int joint : skin.joints)
                 if (is_node(joint))
                     moves_[static_cast<std::size_t>(joint)] = true;
@@ -73,7 +73,7 @@ struct SkinnedVertices {
     std::vector<std::vector<Influence>> of; ///< [vertices of the file]
 };
 
-SkinnedVertices skinned_vertices(const tinygltf::Model& model, const tinygltf::Primitive& primitive) {
+SkinnedVertices skinned_vertices(const GltfModel& model, const GltfPrimitive& primitive) {
     SkinnedVertices vertices;
     for (int set = 0;; ++set) {
         const auto joints = primitive.attributes.find("JOINTS_" + std::to_string(set));
@@ -103,13 +103,13 @@ int joint_of(const SkinnedVertices& vertices, const VertexArray& array, const gl
 }
 
 /// Returns the triangles, grouped by the node that moves them.
-std::map<int, Triangles> carried(const tinygltf::Model& model, const Scene& scene, const Carriers& carriers) {
+std::map<int, Triangles> carried(const GltfModel& model, const Scene& scene, const Carriers& carriers) {
     std::map<int, Triangles> parts;
     for (std::size_t p = 0; p < scene.primitives.size(); ++p) {
         const Primitive& primitive = scene.primitives[p];
-        const tinygltf::Node& node = model.nodes[static_cast<std::size_t>(primitive.node)];
-        const tinygltf::Primitive& file = model.meshes[static_cast<std::size_t>(primitive.mesh)]
-                                              .primitives[static_cast<std::size_t>(primitive.primitive)];
+        const GltfNode& node = model.nodes[static_cast<std::size_t>(primitive.node)];
+        const GltfPrimitive& file = model.meshes[static_cast<std::size_t>(primitive.mesh)]
+                                        .primitives[static_cast<std::size_t>(primitive.primitive)];
         const SkinnedVertices skinned = node.skin >= 0 ? skinned_vertices(model, file) : SkinnedVertices();
         for (std::size_t t = 0; t < primitive.triangles.size(); ++t) {
             int carrier = primitive.node;
@@ -247,8 +247,8 @@ Scene part_of(const Scene& scene, const Triangles& triangles) {
 std::vector<RigidPart> rigid_parts(const GltfDocument& document, const Scene& scene,
                                    const RigidPartsOptions& options) {
     return named(document, [&](const GltfContents& contents) {
-        const tinygltf::Model& model = contents.model;
-        const Carriers carriers(model);
+        const GltfModel& model = contents.model;
+        const Carriers carriers(model, contents.parsed.animations);
         std::map<int, glm::dmat4> worlds;
         for (const NodeTransform& node : world_transforms(model))
             worlds[node.node] = node.world;

@@ -2,12 +2,12 @@
 #include "runtime/scene/gltf/separate_sides.h"
 
 #include "prt/core/error.h"
-#include "runtime/scene/gltf/accessor.h"
+#include "runtime/load/accessor.h"
 #include "runtime/scene/gltf/gathered_accessor.h"
 #include "runtime/scene/gltf/make_meshes_unique.h"
 #include "runtime/scene/gltf/material_choices.h"
 #include "runtime/scene/gltf/reparse.h"
-#include "runtime/scene/gltf/transfer_json.h"
+#include "runtime/scene/gltf/write_transfer_json.h"
 
 #include <algorithm>
 #include <cstring>

@@ -4,7 +4,7 @@
 // Experimental.
 
 #include "prt/gltf/gltf.h"
-#include "prt/gltf/scene.h"
+#include "prt/load/scene.h"
 
 #include <vector>
 

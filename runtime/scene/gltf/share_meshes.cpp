@@ -1,7 +1,8 @@
 // Converts nodes that were created for instances when the file was read back to instances of a shared mesh.
 #include "prt/gltf/transfer_gltf.h"
 
-#include "runtime/scene/gltf/accessor.h"
+#include "runtime/load/accessor.h"
+#include "runtime/load/shared_instances.h"
 #include "runtime/scene/gltf/contents.h"
 #include "runtime/scene/gltf/encode_glb.h"
 

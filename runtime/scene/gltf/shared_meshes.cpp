@@ -2,8 +2,8 @@
 #include "prt/gltf/transfer_gltf.h"
 
 #include "runtime/scene/gltf/contents.h"
-#include "runtime/scene/gltf/even_placement.h"
-#include "runtime/scene/gltf/node_transforms.h"
+#include "runtime/load/even_placement.h"
+#include "runtime/load/node_transforms.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -15,31 +15,16 @@
 namespace prt {
 namespace {
 
-bool is_bent(const tinygltf::Model& model, const tinygltf::Node& node) {
+bool is_bent(const GltfModel& model, const GltfNode& node) {
     if (node.skin >= 0)
         return true;
-    for (const tinygltf::Primitive& primitive : model.meshes[static_cast<std::size_t>(node.mesh)].primitives)
+    for (const GltfPrimitive& primitive : model.meshes[static_cast<std::size_t>(node.mesh)].primitives)
         if (!primitive.targets.empty())
             return true;
     return false;
 }
 
 } // namespace
-
-std::optional<MeshPlacement> even_placement(int node, const glm::dmat4& world) {
-    constexpr double kRounding = 1e-5; // per element, relative to the scale: matrices in files are float
-    const glm::dmat3 linear(world);
-    const double determinant = glm::determinant(linear);
-    if (!(determinant > 0))
-        return std::nullopt;
-    const double scale = std::cbrt(determinant);
-    const glm::dmat3 rotation = linear / scale, square = glm::transpose(rotation) * rotation;
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-            if (!(std::abs(square[i][j] - (i == j ? 1.0 : 0.0)) < kRounding))
-                return std::nullopt;
-    return MeshPlacement{node, rotation, scale};
-}
 
 std::size_t SharedMeshes::placements() const {
     std::size_t count = 0;
@@ -49,7 +34,7 @@ std::size_t SharedMeshes::placements() const {
 }
 
 SharedMeshes shared_meshes(const GltfDocument& document, const Scene& scene) {
-    const tinygltf::Model& model = document.contents().model;
+    const GltfModel& model = document.contents().model;
     std::map<int, glm::dmat4> world;
     for (const NodeTransform& transform : world_transforms(model))
         world[transform.node] = transform.world;
@@ -68,8 +53,8 @@ SharedMeshes shared_meshes(const GltfDocument& document, const Scene& scene) {
         const glm::dmat4& matrix = world.at(primitive.node);
         if (is_bent(model, model.nodes[static_cast<std::size_t>(primitive.node)]))
             ++here.bent;
-        else if (const std::optional<MeshPlacement> placement = even_placement(primitive.node, matrix))
-            here.mesh.placements.push_back(*placement);
+        else if (const std::optional<EvenPlacement> placement = even_placement(matrix))
+            here.mesh.placements.push_back({primitive.node, placement->rotation, placement->scale});
         else
             ++(glm::determinant(glm::dmat3(matrix)) < 0 ? here.mirrored : here.uneven);
     }

@@ -2,9 +2,9 @@
 
 #include "runtime/scene/gltf/smooth_primitives.h"
 
-#include "runtime/scene/gltf/accessor.h"
+#include "runtime/load/accessor.h"
 #include "runtime/scene/gltf/make_meshes_unique.h"
-#include "runtime/scene/gltf/triangles.h"
+#include "runtime/load/triangles.h"
 #include "runtime/scene/smooth_normals.h"
 #include "runtime/support/counted.h"
 
@@ -16,7 +16,7 @@ bool smooth_primitives(GltfContents& contents, double degrees) {
     std::size_t primitives = 0, before = 0, after = 0;
     for (std::size_t m = 0; m < contents.model.meshes.size(); ++m)
         for (std::size_t p = 0; p < contents.model.meshes[m].primitives.size(); ++p) {
-            const tinygltf::Primitive& primitive = contents.model.meshes[m].primitives[p];
+            const GltfPrimitive& primitive = contents.model.meshes[m].primitives[p];
             const auto position = primitive.attributes.find("POSITION");
             if (!is_triangle_mode(primitive.mode) || primitive.attributes.contains("NORMAL") ||
                 position == primitive.attributes.end())

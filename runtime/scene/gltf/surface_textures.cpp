@@ -5,7 +5,7 @@
 #include "prt/core/error.h"
 #include "runtime/scene/gltf/make_meshes_unique.h"
 #include "runtime/scene/gltf/material_choices.h"
-#include "runtime/scene/gltf/transfer_json.h"
+#include "runtime/scene/gltf/write_transfer_json.h"
 
 #include <map>
 #include <set>

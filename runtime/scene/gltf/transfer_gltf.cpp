@@ -2,9 +2,9 @@
 
 #include "runtime/scene/gltf/stored_transfer.h"
 
-#include "runtime/scene/gltf/allowance.h"
+#include "runtime/load/allowance.h"
 #include "runtime/scene/gltf/make_meshes_unique.h"
-#include "runtime/scene/gltf/transfer_json.h"
+#include "runtime/scene/gltf/write_transfer_json.h"
 
 #include <algorithm>
 

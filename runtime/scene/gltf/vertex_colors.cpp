@@ -3,7 +3,7 @@
 #include "prt/gltf/gltf.h"
 
 #include "runtime/scene/gltf/make_meshes_unique.h"
-#include "runtime/scene/gltf/transfer_json.h"
+#include "runtime/scene/gltf/write_transfer_json.h"
 
 #include <algorithm>
 
@@ -20,7 +20,7 @@ std::size_t add_attribute(GltfContents& contents, const VertexArray& vertices,
         std::span(attribute.values).subspan(vertices.first_receiver * width, vertices.size() * width);
     const std::size_t view = contents.add_buffer_view(std::as_bytes(own), width * sizeof(float), true);
     return contents.add_accessor({{"bufferView", view},
-                                  {"componentType", TINYGLTF_COMPONENT_TYPE_FLOAT},
+                                  {"componentType", kFloat},
                                   {"count", vertices.size()},
                                   {"type", kTypes[width - 1]}});
 }

@@ -5,7 +5,7 @@
 #include "runtime/scene/gltf/gathered_accessor.h"
 #include "runtime/scene/gltf/make_meshes_unique.h"
 #include "runtime/scene/gltf/reparse.h"
-#include "runtime/scene/gltf/transfer_json.h"
+#include "runtime/scene/gltf/write_transfer_json.h"
 
 #include <algorithm>
 #include <set>
@@ -24,10 +24,8 @@ public:
                 gather(target, split.source);
         const std::size_t view =
             contents_.add_buffer_view(std::as_bytes(std::span(split.uv)), sizeof(glm::vec2), true);
-        const std::size_t accessor = contents_.add_accessor({{"bufferView", view},
-                                                             {"componentType", TINYGLTF_COMPONENT_TYPE_FLOAT},
-                                                             {"count", split.uv.size()},
-                                                             {"type", "VEC2"}});
+        const std::size_t accessor = contents_.add_accessor(
+            {{"bufferView", view}, {"componentType", kFloat}, {"count", split.uv.size()}, {"type", "VEC2"}});
         primitive["attributes"]["TEXCOORD_" + std::to_string(set)] = accessor;
         for (int s = 0; s < set; ++s)
             if (const std::string name = "TEXCOORD_" + std::to_string(s);
@@ -40,8 +38,7 @@ public:
 private:
     /// Adds an accessor of zeros for missing coordinates; it takes no bytes.
     std::size_t add_zeros(std::size_t count) {
-        return contents_.add_accessor(
-            {{"componentType", TINYGLTF_COMPONENT_TYPE_FLOAT}, {"count", count}, {"type", "VEC2"}});
+        return contents_.add_accessor({{"componentType", kFloat}, {"count", count}, {"type", "VEC2"}});
     }
 
     void gather(Json& attributes, const std::vector<std::uint32_t>& source) {

@@ -4,7 +4,7 @@
 
 #include "prt/core/light.h"
 #include "prt/gltf/gltf.h"
-#include "runtime/scene/predictors.h"
+#include "runtime/load/predictors.h"
 #include "support/glb_file.h"
 #include "support/predicted.h"
 #include "support/temporary_folder.h"

@@ -7,7 +7,7 @@
 #include "prt/core/error.h"
 #include "prt/gl/gl_renderer.h"
 #include "prt/render/tone_map.h"
-#include "runtime/scene/predictors.h"
+#include "runtime/load/predictors.h"
 #include "support/predicted.h"
 #include "support/scene_builder.h"
 

@@ -6,7 +6,7 @@
 #include "prt/core/baked_transfer.h"
 #include "prt/core/error.h"
 #include "prt/core/progress.h"
-#include "prt/gltf/scene.h"
+#include "prt/load/scene.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -5,7 +5,7 @@
 // for Subsurface Light Transport", SIGGRAPH 2001).
 
 #include "prt/core/baked_transfer.h"
-#include "prt/gltf/scene.h"
+#include "prt/load/scene.h"
 #include "prt/render/texture.h"
 
 #include <glm/vec3.hpp>

@@ -3,7 +3,7 @@
 // Plans lightmaps: textures over the surfaces of a scene, whose texels are receivers. Experimental.
 
 #include "prt/core/lightmap.h"
-#include "prt/gltf/scene.h"
+#include "prt/load/scene.h"
 
 #include <cstddef>
 #include <vector>

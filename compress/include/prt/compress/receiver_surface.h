@@ -5,7 +5,7 @@
 
 #include "prt/core/adjacency.h"
 #include "prt/core/lightmap.h"
-#include "prt/gltf/scene.h"
+#include "prt/load/scene.h"
 
 #include <glm/vec3.hpp>
 

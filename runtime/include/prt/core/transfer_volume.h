@@ -46,7 +46,7 @@ struct VolumeBrick {
 /// its minimum corner in the box; coarse bricks can extend beyond the box. Parts of the box may have no
 /// brick.
 struct VolumeGrid {
-    /// Minimum corner of the box, metres, relative to Scene::origin (prt/gltf/scene.h).
+    /// Minimum corner of the box, metres, relative to Scene::origin (prt/load/scene.h).
     glm::vec3 origin{0};
     float spacing = 1;               ///< width of a cell of level 0, metres
     glm::ivec3 size{0};              ///< size of the box in bricks of level 0, 1..kMaxBricksAlong per axis
@@ -90,7 +90,7 @@ struct VolumeProbes {
 VolumeProbes probes_of(const VolumeGrid& grid);
 
 /// Returns the position of `corner`, an element of VolumeProbes::corners, in metres, relative to
-/// Scene::origin (prt/gltf/scene.h).
+/// Scene::origin (prt/load/scene.h).
 inline glm::vec3 position_of(const VolumeGrid& grid, const glm::ivec3& corner) {
     return grid.origin + grid.spacing * glm::vec3(corner);
 }
@@ -159,7 +159,7 @@ public:
     /// Returns the probes of the grid.
     const VolumeProbes& probes() const { return probes_; }
     /// Returns the probes that light `position`, and their weights. `position` is in metres, relative to
-    /// Scene::origin (prt/gltf/scene.h); a position outside the box is moved to the nearest point of the box.
+    /// Scene::origin (prt/load/scene.h); a position outside the box is moved to the nearest point of the box.
     /// `normal` is the unit normal of the lit surface: the lookup uses the point at a distance of a quarter
     /// of a cell from `position` along `normal`, moved into the box. Zero (the default): no offset. The cell
     /// belongs to the brick that contains the point. If no brick contains the point, it is the nearest cell

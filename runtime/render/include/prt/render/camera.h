@@ -3,7 +3,7 @@
 // Cameras and the view rays of pixels. Experimental.
 
 #include "prt/core/glm_layout.h"
-#include "prt/gltf/scene.h"
+#include "prt/load/scene.h"
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>

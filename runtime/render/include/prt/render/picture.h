@@ -8,7 +8,7 @@
 #include "prt/core/light.h"
 #include "prt/core/lightmap.h"
 #include "prt/core/transfer_layout.h"
-#include "prt/gltf/scene.h"
+#include "prt/load/scene.h"
 #include "prt/render/camera.h"
 #include "prt/render/texture.h"
 

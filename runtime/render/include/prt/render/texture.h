@@ -3,7 +3,7 @@
 // Textures of materials: builds mip chains for OpenGL, and filters them on the CPU like OpenGL. Experimental.
 
 #include "prt/core/glm_layout.h"
-#include "prt/gltf/scene.h"
+#include "prt/load/scene.h"
 #include "prt/image/image_file.h"
 
 #include <glm/vec2.hpp>

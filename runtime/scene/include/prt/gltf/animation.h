@@ -58,37 +58,6 @@ struct Animation {
 /// interpolation of rotations follows the shorter arc (glTF 2.0, appendix C). The channel must have a key.
 glm::dvec4 value_at(const AnimationChannel& channel, double seconds);
 
-/// Joints of a skinned mesh.
-struct Skin {
-    std::vector<std::size_t> joints; ///< indices of the joint nodes in the file
-    /// [joints] matrix from the frame of the unposed mesh to the frame of the joint; identity if the file has
-    /// no inverse bind matrices.
-    std::vector<glm::dmat4> inverse_bind;
-};
-
-/// Skinning data of one element of `Scene::vertex_arrays`. With a skin, the weighted mean of several matrices
-/// transforms each vertex. Without a skin, the world matrix of the node transforms all vertices.
-struct MovingVertices {
-    std::size_t node = 0; ///< index in the file of the node that draws the vertices
-    int skin = -1;        ///< index into AnimatedScene::skins; -1: no skin
-    /// [vertices] positions and unit normals in the frame of the mesh: before node and joint matrices, after
-    /// morph targets. A normal is 0 if it is undefined.
-    std::vector<glm::vec3> positions, normals;
-    std::size_t influences = 1; ///< number of matrices per vertex
-    /// [vertices][influences] indices into the result of AnimatedScene::matrices for this array. Empty
-    /// without a skin.
-    std::vector<std::uint32_t> matrices;
-    /// [vertices][influences] weight of each matrix, 0 or more; the sum per vertex is above 0, but may differ
-    /// from 1. Weight 0: ignore the matrix index. Empty without a skin.
-    std::vector<float> weights;
-};
-
-/// Returns the matrix from the frame of the mesh to the world for one vertex: with a skin, the weighted mean
-/// of its matrices. `palette`: result of AnimatedScene::matrices for the array of `moving`. `vertex`: index
-/// into moving.positions.
-glm::dmat4 vertex_matrix(std::span<const glm::dmat4> palette, const MovingVertices& moving,
-                         std::size_t vertex);
-
 /// Returns whether the file has at least one animation. Does not read or check the animations.
 bool has_animations(const GltfDocument& document);
 

@@ -3,7 +3,7 @@
 // glTF 2.0 files: reads scenes, and reads and writes transfer (docs/format.md). Stable.
 
 #include "prt/core/baked_transfer.h"
-#include "prt/gltf/scene.h"
+#include "prt/load/scene.h"
 
 #include <filesystem>
 #include <memory>

@@ -3,7 +3,7 @@
 // Mesh refinement: inserts vertices at edge midpoints, in memory and in files. Experimental.
 
 #include "prt/gltf/gltf.h"
-#include "prt/gltf/scene.h"
+#include "prt/load/scene.h"
 
 #include <glm/vec3.hpp>
 

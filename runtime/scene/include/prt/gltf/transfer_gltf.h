@@ -9,6 +9,7 @@
 #include "prt/core/occlusion_volume.h"
 #include "prt/core/transfer_volume.h"
 #include "prt/gltf/gltf.h"
+#include "prt/load/model.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -65,12 +66,6 @@ struct SharedDocument {
 /// Call `write_instances` for the result before you save it. Throws the errors of `parse_gltf`.
 SharedDocument with_shared_meshes(const GltfDocument& document, const std::vector<SharedMesh>& meshes);
 
-/// Contents of PRTKIT_instances: data of all instances that share transfer in a file.
-struct StoredInstances {
-    std::vector<InstanceFactors> factors; ///< [instances] in axes of the world; mesh by mesh, and within a
-                                          ///< mesh placement by placement
-    std::vector<InstanceBox> boxes;       ///< [shared meshes] bounding box of the mesh, in the mesh's frame
-};
 /// Writes `instances` into `document`, a result of `with_shared_meshes`, with the same numbers of instances
 /// and meshes. Each number of the factors is rounded to one byte. Throws `Error` if a number of the factors
 /// is not finite or its magnitude exceeds `kMaxInstanceFactor`. Does not check the boxes; files need half
@@ -85,16 +80,6 @@ bool shares_instances(const GltfDocument& document);
 /// `Instancing` with which `document` was read.
 bool holds_instances(const GltfDocument& document);
 
-/// An instance of a file that is read twice: with `Instancing::nodes` (the flat scene) and with
-/// `Instancing::separate` (the stored scene, which contains the mesh of the instance once).
-struct FileInstance {
-    int node = 0;           ///< index in the nodes of the document of the flat scene
-    std::size_t number = 0; ///< index of the instance in StoredInstances::factors
-    PlacedInstance placed;  ///< factors and rotation of the instance; bounding box in the mesh's frame
-    std::vector<std::size_t> arrays, ///< vertex arrays of the instance in the flat scene
-        stored_arrays;   ///< vertex arrays of the stored scene: entry i has the transfer for `arrays[i]`
-    glm::dmat4 world{1}; ///< from the mesh's frame to the file's world
-};
 /// Returns the instances of the file in ascending order of their nodes. `document` was read with
 /// `Instancing::nodes`, and `scene` was extracted from it. `stored` is the scene of the same file read with
 /// `Instancing::separate`. `holds_instances(document)` must be true. Throws `Error` if PRTKIT_instances is
@@ -129,13 +114,6 @@ InstancedModel read_instanced(const GltfDocument& document, const Scene& scene,
 /// shader --stage instances` require.
 std::vector<RelitInstance> relit_instances(const InstancedModel& model,
                                            const glm::dvec3& seen_from = glm::dvec3(0));
-/// Returns `instances` in the form that InstanceRelighter needs, in the same order. `transfer` has the
-/// receivers of `stored`; `stored` is the scene that `FileInstance::stored_arrays` refers to. Boxes of the
-/// result are relative to `stored.origin` - `seen_from`.
-std::vector<RelitInstance> relit_instances(std::span<const FileInstance> instances, const Scene& stored,
-                                           const ClusteredTransfer& transfer,
-                                           const glm::dvec3& seen_from = glm::dvec3(0));
-
 /// Returns areas in m², [receivers of `stored`]: the area of the receiver itself, or for a receiver of a
 /// shared mesh the sum of its areas in all instances at their scales. `document` was read with
 /// `Instancing::separate`, and `stored` was extracted from it. Throws `Error` if a sum exceeds 1e18 times the
@@ -150,9 +128,6 @@ std::vector<float> instanced_areas(const GltfDocument& document, const Scene& st
 Transfer expanded(const GltfDocument& document, const Scene& scene, const Scene& stored,
                   const Transfer& transfer, int threads = 0);
 
-/// Maximum width and maximum height of a lightmap in a file, in texels.
-inline constexpr int kMaxLightmapTexels = 16384;
-
 /// Writes raw transfer of texels into `document`, from which `scene` was extracted. Removes all existing
 /// transfer of surfaces: of vertices, of texels, and lobes. Changes the meshes as `write_transfer` does; call
 /// only one function that changes the meshes per document. Throws the errors of `write_transfer`.
@@ -162,14 +137,6 @@ void write_lightmap(GltfDocument& document, const Scene& scene, const BakedLight
 /// `scene` was extracted from `document`. Throws `Error` if the lightmap is damaged, too large or of another
 /// version, or if the file also has transfer of vertices.
 std::optional<BakedLightmap> read_lightmap(const GltfDocument& document, const Scene& scene);
-
-/// A compressed lightmap whose packed words (cluster and weights of a texel) are encoded as images.
-struct EncodedLightmap {
-    /// The lightmap without the clusters and weights of receivers, which `images` contain.
-    CompressedLightmap lightmap;
-    /// [maps][words per texel] PNG files, one for each word of the texels of a map.
-    std::vector<std::vector<std::byte>> images;
-};
 
 /// Writes a compressed lightmap with encoded images into `document`, from which `scene` was extracted.
 /// `lightmap` must have at least one map and packed weights. Removes all existing transfer of surfaces and
@@ -200,21 +167,6 @@ std::optional<CompressedVolume> read_compressed_volume(const GltfDocument& docum
 /// volume.
 void discard_volume(GltfDocument& document);
 
-/// Settings of the lobe fit; written to the file and shown by `prt info`. A number that the file does not
-/// contain is 0.
-struct LobeRecord {
-    int poses = 0;          ///< number of poses in the fit
-    int rays = 0;           ///< number of rays per vertex in each pose
-    int bounces = 0;        ///< number of bounces; 0: direct light only
-    std::uint64_t seed = 0; ///< seed of the random numbers of the rays
-};
-
-/// Lobes as stored in a file, with the record of their fit.
-struct StoredLobes {
-    LobeModel model; ///< vertices in the order of the receivers of the scene
-    LobeRecord record;
-};
-
 /// Writes lobes into `document`, from which `scene` was extracted. Removes all other transfer of surfaces
 /// (vertices and lightmaps), because other transfer is valid for a single pose only. Changes the meshes as
 /// `write_transfer` does; call only one function that changes the meshes per document. Throws the errors of
@@ -224,12 +176,6 @@ void write_lobes(GltfDocument& document, const Scene& scene, const StoredLobes& 
 /// Returns the lobes in the file; empty if the file has no lobes. `scene` was extracted from `document`.
 /// Throws `Error` if the lobes are damaged, too large or of another version.
 std::optional<StoredLobes> read_lobes(const GltfDocument& document, const Scene& scene);
-
-/// An occlusion volume, and the node with which the volume moves.
-struct NodeOccluder {
-    int node = 0;           ///< index in the nodes of the document
-    OcclusionVolume volume; ///< in the frame of the node
-};
 
 /// Removes all occlusion volumes from `document`, then writes `occluders`, which contain at most one for each
 /// node. Throws `Error` if a node does not exist; `document` is then partly changed. Does not check the

@@ -1,0 +1,18 @@
+#pragma once
+
+// Predictor coordinates (`Predictor` of prt/core/clustered_bases.h) at the receivers of a scene. Stable.
+
+#include "prt/core/clustered_bases.h"
+#include "prt/load/scene.h"
+
+#include <span>
+#include <vector>
+
+namespace prt {
+
+/// Returns the predictor coordinates of each receiver of `scene`, [receivers][3 predictors.size()], for
+/// ClusteredReceivers::predictors. Each predictor has three coordinates: the normal, or
+/// VertexArray::positions minus Predictor::origin. The coordinates are not multiplied by Predictor::scale.
+std::vector<float> predictor_coordinates(const Scene& scene, std::span<const Predictor> predictors);
+
+} // namespace prt

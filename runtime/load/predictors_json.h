@@ -1,0 +1,18 @@
+#pragma once
+
+// Predictors and offsets of PRTKIT_clustered_pca (docs/format.md).
+
+#include "runtime/load/transfer_json.h"
+
+namespace prt {
+
+/// Reads predictors, and offsets of the clusters of `bases`. Throws `Error` if they are invalid.
+void read_predictors(const GltfData& contents, const Scene& scene, const Json& extension,
+                     ClusteredBases& bases);
+
+/// Returns the predictor coordinates of all receivers of `scene`. Throws `Error` if they need too much
+/// memory, or exceed the maximum weight.
+std::vector<float> read_coordinates(const GltfData& contents, const Scene& scene,
+                                    const ClusteredBases& bases);
+
+} // namespace prt

@@ -1,0 +1,47 @@
+// Reads triangles from lists, strips and fans.
+#include "runtime/load/triangles.h"
+
+#include "prt/core/error.h"
+#include "runtime/load/accessor.h"
+#include "runtime/support/counted.h"
+
+#include <numeric>
+#include <string>
+
+namespace prt {
+
+bool is_triangle_mode(int mode) {
+    return mode == kTriangles || mode == kTriangleStrip || mode == kTriangleFan;
+}
+
+std::vector<glm::uvec3> read_triangles(const GltfModel& model, const GltfPrimitive& primitive,
+                                       std::size_t vertices) {
+    std::vector<std::uint32_t> indices;
+    if (primitive.indices >= 0) {
+        indices = read_unsigned(model, primitive.indices, 1);
+    } else {
+        indices.resize(vertices);
+        std::iota(indices.begin(), indices.end(), 0u);
+    }
+    for (const std::uint32_t index : indices)
+        if (index >= vertices)
+            throw Error("index " + std::to_string(index) + " is out of range: there are " +
+                        counted(vertices, "vertex", "vertices"));
+
+    std::vector<glm::uvec3> triangles;
+    const bool listed = primitive.mode != kTriangleStrip && primitive.mode != kTriangleFan;
+    triangles.reserve(listed ? indices.size() / 3 : indices.size());
+    if (primitive.mode == kTriangleStrip) {
+        for (std::size_t i = 0; i + 2 < indices.size(); ++i)
+            triangles.emplace_back(indices[i], indices[i + 1 + i % 2], indices[i + 2 - i % 2]);
+    } else if (primitive.mode == kTriangleFan) {
+        for (std::size_t i = 1; i + 1 < indices.size(); ++i)
+            triangles.emplace_back(indices[i], indices[i + 1], indices[0]);
+    } else {
+        for (std::size_t i = 0; i + 2 < indices.size(); i += 3)
+            triangles.emplace_back(indices[i], indices[i + 1], indices[i + 2]);
+    }
+    return triangles;
+}
+
+} // namespace prt
