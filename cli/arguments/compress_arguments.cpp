@@ -133,8 +133,8 @@ void add_goals(CLI::App* command, SearchOptions& o) {
         ->add_option_function<std::string>(
             "--max-jump", [&o](const std::string& value) { set_max_jump(value, o.budget); },
             "limit of jumps of the contrast error between clusters\n"
-            "X: difference between both sides of a border, relative to the local brightness; 0.05: 5 %\n"
-            "  99 % of the borders keep it\n"
+            "X: difference between both sides of a border, relative to the local brightness\n"
+            "  above 0; 0.05: 5 %; 99 % of the borders keep it\n"
             "each FILE of --lights keeps it at 24 rotations; a FAMILY of --lights on average\n"
             "none: no limit\n"
             "X needs another goal; default: 0.05 if --max-error is the only other goal, else none")
@@ -145,6 +145,8 @@ void add_goals(CLI::App* command, SearchOptions& o) {
             "--bytes-per-vertex", o.budget.bytes_per_vertex,
             "find the minimum error with at most X bytes per vertex, with bases\n"
             "X: the bytes of its 32-bit words, plus the bytes of all bases / number of vertices or texels\n"
+            "  above 0; an error if no result has at most X bytes (see --best-effort)\n"
+            "error: the larger of relative L2 and contrast error (see --max-error), mean over --lights\n"
             "with --max-error: only an additional limit; default: no limit\n"
             "with --shader-ops: the result keeps both limits; probes of a volume are not limited\n"
             "not with --bits N or a --preset other than custom")
@@ -172,10 +174,10 @@ void add_writing(CLI::App* command, CompressArguments& a) {
             std::string(
                 "add vertex colors, lit by this file, for viewers without PRT support\n"
                 "not for lightmaps and shared instances; default: no vertex colors are added\n"
-                "exposure is automatic; suns are part of the sky; lamps are as bright as in the scene\n"
+                "exposure is automatic; suns are part of the sky; lamps are as bright as in the bake\n"
                 "materials become unlit; emissive, glass and unlit ones remain as they are\n"
                 "programs that read the transfer restore the original colors and materials\n") +
-                kLightFiles)
+                kLightFiles + "\nlight file: at least of the order of the bake")
         ->check(named)
         ->type_name("FILE");
     command->add_flag("--reorder", a.writing.reorder,
@@ -187,6 +189,7 @@ void add_writing(CLI::App* command, CompressArguments& a) {
         "lossless, for vertices and triangles; programs that read the file need this extension\n"
         "not for images, and not for the weights of lightmaps and volumes\n"
         "also entropy-codes the weights of vertices if this is smaller, not with --bits float\n"
+        "  your readers must then decode them as docs/format.md describes; those of prtkit do\n"
         "the bytes in GPU memory remain the same");
 }
 

@@ -131,6 +131,7 @@ void add_light_options(CLI::App* command, LightOptions& options) {
         ->add_option("--rotate", options.rotation_degrees,
                      "rotate the sky and its suns about +Y by X degrees\n"
                      "X above 0: counter-clockwise, seen from above; -1000000 to 1000000\n"
+                     "prt compress: affects only --fallback; errors are minimized over all rotations\n"
                      "needs a light from a file: image or light file")
         ->capture_default_str()
         ->check(real_in(-1e6, 1e6));
@@ -185,7 +186,7 @@ void add_lamp_scale(CLI::App* command, double& scale, const std::string& details
         ->add_option(
             "--lamp-scale", scale,
             "factor on the intensity of point, spot and directional lights\n"
-            "X: above 0; 1 for lights in watts, 0.00146 (1/683) for lights in candela and lux\n"
+            "X: above 0; 1 for lights in W/sr and W/m², 0.00146 (1/683) for lights in candela and lux\n"
             "candela and lux are the units of the glTF standard; Blender, for example, exports them\n"
             "emissive materials are not scaled" +
                 details)

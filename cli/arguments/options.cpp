@@ -92,8 +92,9 @@ void add_output(CLI::App* command, Path& output, const std::string& text) {
 void add_reading(CLI::App* command, ReadingOptions& reading, double* limit) {
     reading.notify = print_notices;
     command->add_flag("--allow-outside", reading.allow_outside,
-                      "let the scene read files outside its folder; for trusted scenes only\n"
-                      "files: buffers and textures; folder: that of the scene file, with its subfolders\n"
+                      "let scenes read files outside their folders; for trusted scenes only\n"
+                      "scenes: all .gltf and .glb inputs; files: buffers and textures\n"
+                      "folder: that of the scene file, with its subfolders; a link counts as its target\n"
                       "default: buffers outside are an error; textures outside are missing (--bad-textures)");
     choice(command, "--bad-textures", reading.bad_textures, kBadTextures,
            "handling of missing, damaged or unsupported textures", "error");

@@ -63,8 +63,9 @@ CLI::Option* add_texels(CLI::App* command, TexelArguments& a, const std::string&
             .detail("N: number of texels along each side of a texture, 1 to 8192")
             .detail(
                 "N/m: mean number of texels per metre of surface, as 64/m; an error above 8192 along a side")
-            .flag("unwrap", "create a new set of texture coordinates if that of uv=N is missing or unusable",
+            .flag("unwrap", "create new texture coordinates if the set of uv=N is missing or unusable",
                   [&a] { a.unwrap = true; })
+            .detail("  new set: the TEXCOORD after the last existing one; its number is printed")
             .detail("  unusable: overlaps within an object (node), with atlas=one also between objects,")
             .detail(
                 "    has no area, crosses the border of the texture, or needs more than 8192 texels for N/m")
@@ -81,13 +82,16 @@ CLI::Option* add_texels(CLI::App* command, TexelArguments& a, const std::string&
                "needs --texels; FILE: .gltf or .glb, in the coordinate frame of the scene\n"
                "a texel is measured on the outermost detailed surface along its normal, within the distance\n"
                "  outwards and inwards, that faces the same way; if it is missing, on the scene\n"
+               "  an error if it is missing for all texels\n"
+               "prt bake: bounces and lamps are also those of FILE; probes of --volume ignore FILE\n"
                "--no-shadow has no effect on this model",
                [&a](const std::string& file) {
                    if (file.empty())
                        throw CLI::ValidationError("--high-poly", "the name of the file is empty");
                    a.high_poly = file;
                })
-        .number("distance", 1e-9, 1e9, "maximum distance from the scene, metres [diagonal of the scene / 50]",
+        .number("distance", 1e-9, 1e9,
+                "maximum distance from the scene, metres [diagonal of its bounding box / 50]",
                 [&a](double metres) { a.distance = metres; })
         .add(command);
     a.option = texels;

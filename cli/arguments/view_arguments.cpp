@@ -71,6 +71,7 @@ void add_view(CLI::App* command, View& view) {
                   "whole scene is visible");
     vector_option(command, "--look-at", view.look_at,
                   "point that the camera looks at, metres\n"
+                  "not the position of the camera, and not straight above or below it\n"
                   "default: the point that centers the scene in the picture of the default --camera",
                   "near the center of the scene");
     command

@@ -44,7 +44,8 @@ void add_volume(CLI::App* command, VolumeArguments& arguments) {
                 check_one(volume.probes > 0);
                 volume.spacing = *metres;
             })
-            .detail("METRES: distance between probes near surfaces; it is larger in open space")
+            .detail("METRES: distance between probes near surfaces, 1e-9 to 1e9; it is larger in open space\n"
+                    "probes receive light from the scene, not from the model of --high-poly")
             .detail("not with --target-error, --method raster or --instances shared; --instances auto acts "
                     "as own")
             .whole_number("probes", 125, 1 << 28,

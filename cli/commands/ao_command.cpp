@@ -316,7 +316,7 @@ void add_falloff(CLI::App* command, Falloff& falloff) {
             "let surfaces at DISTANCE metres block half of the light\n"
             "nearer surfaces block more, farther ones less (obscurance); DISTANCE: above 0\n"
             "several distances: the weighted mean of their blocked light\n"
-            "SHARE: weight of a distance, 0 or more [1], as 2:97,300:3 for 97 % and 3 %\n"
+            "SHARE: weight of a distance, 0 or more, not all 0 [1]; as 2:97,300:3 for 97 % and 3 %\n"
             "not with --occluders\n"
             "default: surfaces block all light at any distance up to --max-distance")
         ->allow_extra_args(false)

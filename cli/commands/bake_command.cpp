@@ -205,8 +205,8 @@ void add_lamps(CLI::App* command, LampOptions& lamps) {
         .number("radius", 0, 1e9, "radius of point and spot lights, metres; larger: softer shadows [0]",
                 [&lamps](double metres) { lamps.radius = metres; })
         .whole_number("rays", 1, kMaxRays,
-                      "rays from a vertex, texel or probe to the lamps of one name, 1 to 2^24 [64]\n"
-                      "  for emissive materials and for lights with radius; other lights get one ray",
+                      "rays from a vertex, texel or probe to each lamp, 1 to 2^24 [64]\n"
+                      "  N to its emissive materials, N to its lights with radius, one to each other light",
                       [&lamps](int rays) { lamps.rays = rays; })
         .key("group", "NAME=PATTERN", "combine lamps whose names match PATTERN into one lamp NAME",
              [&lamps](const std::string& text) { lamps.groups.push_back(parse_group(text)); })
@@ -252,14 +252,15 @@ void add_refinement(CLI::App* command, BakeArguments& a) {
                        throw CLI::ValidationError("--refine", wrong);
                    a.finer.refine = real_number(text);
                })
-        .detail("ERROR: relative L2 interpolation error of direct light of the sky, without lamps; 0.02: 2 %")
+        .detail("ERROR: above 0; relative L2 error of interpolation of direct light; 0.02: 2 %\n"
+                "  light of the sky, not of lamps")
         .detail("the written mesh contains the new vertices; coarser levels of detail are not split")
         .detail("stops earlier at the maximum number of vertices, and at very short edges; default: no split")
         .detail(
             "fits light to the surface (--fit surface); not with --fit vertex, --target-error, --texels,\n"
-            "  --method raster, --instances shared")
+            "  --method raster, --instances shared; --instances auto acts as own")
         .whole_number("vertices", 1, std::numeric_limits<int>::max(),
-                      "maximum number of vertices [4 x those of the scene, at least 20000]",
+                      "maximum number of vertices, 1 or more [4 x those of the scene, at least 20000]",
                       [&a](int count) { a.finer.max_vertices = static_cast<std::size_t>(count); })
         .add(command);
 }

@@ -60,11 +60,12 @@ void add_goals(CLI::App* command, MakeGoal& goal) {
         ->check(above_zero())
         ->excludes(error);
     command
-        ->add_option("--seconds", goal.seconds,
-                     "limit the time to about X seconds by fewer rays and trials\n"
-                     "noise increases, and a given --max-error may fail\n"
-                     "at least 64 rays per vertex and one compression: large scenes can take longer\n"
-                     "default: no limit")
+        ->add_option(
+            "--seconds", goal.seconds,
+            "limit the time to about X seconds by fewer rays and trials\n"
+            "triangles are split only if time allows; noise increases, and a given --max-error may fail\n"
+            "at least 64 rays per vertex and one compression: large scenes can take longer\n"
+            "X: above 0; default: no limit")
         ->check(above_zero());
     command
         ->add_flag(
@@ -94,7 +95,8 @@ void add_make(CLI::App& app, Session& session) {
     add_lights(command, r.lights,
                "light in which the model will be used\n"
                "up to 4 suns of an image and all suns of a light file are separate: renderers add their\n"
-               "  direct light with shadow maps; --max-error includes only their light after bounces")
+               "  direct light with shadow maps; --max-error includes only their light after bounces\n"
+               "light file: at least of order 6 and of the order that is chosen; 10 is always enough")
         ->required();
     add_goals(command, r.goal);
     command

@@ -219,7 +219,8 @@ void add_relight(CLI::App& app, Session& session) {
     add_light(command, a.environment);
     add_output(command, a.output,
                "write the model with light as vertex colors to this .glb\n"
-               "the light replaces existing vertex colors; the file contains no transfer");
+               "existing vertex colors are replaced, with --colors unlit multiplied by the light\n"
+               "the file contains no transfer of vertices; a volume remains");
     add_suns(command, a.suns,
              std::string("number of suns of --lights with sharp shadows, traced by rays\n"
                          "needs --lights\n"

@@ -613,7 +613,8 @@ void add_look(CLI::App* command, RenderArguments& a) {
     command
         ->add_option("--samples", a.view.samples,
                      "samples along each axis of a pixel, 1 to 16: N x N per pixel\n"
-                     "no effect on a path-traced picture; a GPU limits N times --size, the CPU does not")
+                     "no effect on a path-traced picture\n"
+                     "N times --size above the limit of a GPU is an error; the CPU has no limit")
         ->capture_default_str()
         ->check(CLI::Range(1, 16));
     command->add_flag(
@@ -633,10 +634,11 @@ void add_render(CLI::App& app, Session& session) {
     });
     command
         ->add_option("model", a.model,
-                     "model to draw: a scene, or output of prt bake, compress or lobes\n"
-                     "                              .gltf or .glb; a scene without transfer is lit by the "
-                     "sky without\n"
-                     "                              shadows and has no lamps, except with --path-trace")
+                     "model to draw: a scene, or output of prt bake, compress, make or lobes\n"
+                     "                              .gltf or .glb; skinned meshes have the pose of the file\n"
+                     "                              a scene without transfer is lit by the sky without "
+                     "shadows\n"
+                     "                              and has no lamps, except with --path-trace")
         ->required()
         ->check(named);
     add_light(command, a.environment);
