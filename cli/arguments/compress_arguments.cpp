@@ -72,7 +72,8 @@ void add_preset(CLI::App* command, SearchOptions& o) {
             "u32x4: one 32-bit word, four components in each cluster; for shaders without a loop\n"
             "u64x9: two 32-bit words, nine components in each cluster; for shaders without a loop\n"
             "custom: sizes from --clusters, --components and --bits, or chosen for a goal\n"
-            "  default with one of these options or a goal\n"
+            "  default if one of these options or a goal is given\n"
+            "  goals: --max-error, --bytes-per-vertex and --shader-ops\n"
             "all except custom: up to 256 clusters; fewer for small meshes and lightmaps:\n"
             "  bases need at most twice the bytes of vertices or texels, or 4096 bytes if that is more\n"
             "presets except custom cannot be combined with goals, --clusters, --components and --bits")
@@ -96,9 +97,9 @@ void add_preset(CLI::App* command, SearchOptions& o) {
     command
         ->add_option_function<std::string>(
             "--bits", [&o](const std::string& text) { set_bits(text, o.compress.coding); },
-            "sum of the bits of all weights of a vertex, 0 to 240; default: 24\n"
-            "or of a texel; with the bits of the cluster index, rounded up to whole 32-bit words\n"
-            "with a goal, the number is chosen, and only float can be given; --preset: only custom\n"
+            "bits of all weights of a vertex or texel, 0 to 240; default: 24\n"
+            "N and the bits of the cluster index together are rounded up to whole 32-bit words\n"
+            "with a goal, N is chosen, and only float can be given; not with a --preset other than custom\n"
             "float: 32-bit weights, not quantized; shows the error of quantization by comparison\n"
             "  not for lightmaps")
         ->type_name("N|float");
@@ -153,10 +154,11 @@ void add_goals(CLI::App* command, SearchOptions& o) {
         ->check(above_zero());
     command
         ->add_option("--shader-ops", o.budget.operations,
-                     "limit of the mean number of multiply-adds per vertex in the shader\n"
-                     "one multiply-add of a color for each component, plus those of --predictors:\n"
-                     "  none: 0, normal: 3, position: 6\n"
+                     "limit of the mean number of multiply-adds per vertex or texel\n"
+                     "X: above 0; one multiply-add of a color for each component, plus those of\n"
+                     "  --predictors: none: 0, normal: 3, position: 6\n"
                      "without --max-error: find the minimum error; default: no limit\n"
+                     "with --max-error or --bytes-per-vertex: an additional limit\n"
                      "not with --bits N or a --preset other than custom")
         ->check(above_zero());
 }
@@ -196,7 +198,7 @@ void add_writing(CLI::App* command, CompressArguments& a) {
 /// Adds --volume.
 void add_probe_size(CLI::App* command, CompressArguments& a) {
     Suboptions("--volume", "",
-               "size of the probes; needs a bake with a volume\n"
+               "size of the probes, as --volume bytes=12; needs a bake with a volume\n"
                "goals, --preset and the other sizes have no effect on probes",
                nullptr)
         .key("bytes", "N",

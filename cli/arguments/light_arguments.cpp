@@ -74,7 +74,8 @@ void add_image_options(CLI::App* command, EnvironmentOptions& options) {
             "  6:1 (row), and 4:3 or 3:4 (cross) with one color outside the faces: cube-faces\n"
             "  other images need this option\n"
             "six files: the name sky_{face}.hdr reads sky_px.hdr, sky_nx.hdr, and py, ny, pz, nz\n"
-            "  default: cube-faces\n"
+            "  or PX NX PY NY PZ NZ, or posx negx posy negy posz negz, or +x -x +y -y +z -z, or\n"
+            "  right left top bottom front back; default: cube-faces\n"
             "needs a light from a file; no effect on light files (.json)" +
                 explained(kLayouts))
         ->type_name("LAYOUT")
@@ -125,7 +126,7 @@ void add_light_options(CLI::App* command, LightOptions& options) {
     choice(command, "--window", options.window, kWindows,
            "filter on the SH bands of the sky against ringing\n"
            "needs a light from a file; suns in the sky are filtered, separate suns are not\n"
-           "backgrounds and path tracing use images without the filter",
+           "images are not filtered where they are the background or the light of path tracing",
            window->name);
     command
         ->add_option("--rotate", options.rotation_degrees,

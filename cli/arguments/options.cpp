@@ -115,7 +115,7 @@ void add_reading(CLI::App* command, ReadingOptions& reading, double* limit) {
                     "default for the bake: the memory of the machine, or of its container if smaller\n"
                     "default for the scene: 256 MB + 64 times the size of the .gltf or .glb and its buffers"
                   : "limit of memory for the scene, as 8GB\n"
-                    "the program stops if more is needed\n"
+                    "an error if more is needed; each scene or model that is read has this limit\n"
                     "SIZE: a whole number above 0; 1 GB: 10^9 bytes, 1 GiB: 2^30 bytes; no unit: bytes\n"
                     "scene: geometry with all instances and morph targets, without textures and transfer\n"
                     "file size: of the .gltf or .glb and its buffers")
@@ -126,11 +126,11 @@ void add_reading(CLI::App* command, ReadingOptions& reading, double* limit) {
 
 void add_smooth_normals(CLI::App* command, GltfOptions& reading) {
     command
-        ->add_option(
-            "--smooth-normals", reading.smooth_normals_degrees,
-            "compute missing normals, smooth up to this edge angle; default: flat\n"
-            "angle between the normals of two adjacent triangles, 0 to 180; existing normals are kept\n"
-            "flat: the normal of each triangle")
+        ->add_option("--smooth-normals", reading.smooth_normals_degrees,
+                     "compute missing normals, smooth up to this edge angle; default: flat\n"
+                     "angle between the normals of two adjacent triangles, 0 to 180\n"
+                     "edges with a larger angle are sharp; existing normals are kept\n"
+                     "flat: the normal of each triangle")
         ->type_name("DEGREES")
         ->check(real_in(0, 180));
 }

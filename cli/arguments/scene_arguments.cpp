@@ -26,21 +26,22 @@ constexpr Choice<InstanceMode> kInstanceModes[] = {
     {"shared", InstanceMode::shared,
      "bake a mesh once; 52 bytes per instance describe the effect of its surroundings\n"
      "  instances that are mirrored, sheared, skinned or morphed, or have unequal scale: as own\n"
-     "  an error if no mesh has at least two other instances\n"
+     "  an error if no mesh has at least two instances that can share\n"
      "  not with --texels, --volume, --refine, --target-error, --fit surface, --method raster\n"
      "  not with subsurface scattering, lamps (use --lamps none), levels (use --levels ignore)"},
     {"auto", InstanceMode::automatic,
-     "shared if possible and if it saves at least 3/4 of the rays, else own"}};
+     "shared if possible and if it saves at least 3/4 of the rays of these meshes, else own"}};
 
 } // namespace
 
 void add_no_shadow(CLI::App* command, std::vector<std::string>& materials, const std::string& details) {
     command
-        ->add_option("--no-shadow", materials,
-                     "name of a material that casts no shadow; repeat the option for several\n"
-                     "for example of a sky dome; an unknown name is an error; default: all cast shadows\n"
-                     "rays pass through its surfaces, which therefore reflect no light to other surfaces" +
-                         details)
+        ->add_option(
+            "--no-shadow", materials,
+            "name of a material that casts no shadow; repeat the option for several\n"
+            "for example of a sky dome; an unknown name is an error; default: all cast shadows\n"
+            "rays pass through its surfaces, which reflect no light to others; emissive ones stay lamps" +
+                details)
         ->allow_extra_args(false)
         ->type_name("MATERIAL");
 }
@@ -48,8 +49,8 @@ void add_no_shadow(CLI::App* command, std::vector<std::string>& materials, const
 void add_back_sides(CLI::App* command, BackSides& sides, const std::string& details) {
     choice(command, "--back-sides", sides, kBackSides,
            "light of the back sides of double-sided materials" + details +
-               "\nalways shared for blended, transmitting and subsurface materials, and for surfaces\n"
-               "  with a single-sided material variant (KHR_materials_variants)",
+               "\nalways shared for surfaces with alpha blending, transmission, diffuse transmission or\n"
+               "  subsurface scattering, and with a single-sided material variant (KHR_materials_variants)",
            "auto");
 }
 
@@ -69,13 +70,15 @@ void add_instances(CLI::App* command, InstanceArguments& arguments) {
                })
         .detail(explained(kInstanceModes).substr(1))
         .number("error", 0, 1e9,
-                "bake an instance as own if its relative L2 error is above X; 0.1: 10 % [0.1]",
+                "bake an instance as own if its relative L2 error is above X, 0 to 1e9 [0.1]\n"
+                "  0.1: 10 %; measured under five built-in soft skies and under --lights",
                 [&arguments](double error) {
                     arguments.error = error;
                     arguments.settings = true;
                 })
         .whole_number("samples", 8, 1 << 20,
-                      "limit of vertices traced in the surroundings of an instance; at least 8 [256]",
+                      "limit of vertices of an instance that are traced in its surroundings [256]\n"
+                      "  8 to 1048576; each with 1/16 of --rays, at least 16",
                       [&arguments](int samples) {
                           arguments.bake.samples = samples;
                           arguments.settings = true;
@@ -87,6 +90,7 @@ void add_instances(CLI::App* command, InstanceArguments& arguments) {
         command, arguments.lights,
         "light under which errors of shared instances are measured\n"
         "needs --instances shared or auto; five built-in soft skies are always tested too\n"
+        "light file: at least of the order of --order\n"
         "an instance is baked as own if its error under a FILE, or under the five skies together, is\n"
         "  above error=X of --instances; default: only the skies are tested");
     add_suns(

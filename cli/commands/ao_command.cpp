@@ -277,8 +277,9 @@ void add_outputs(CLI::App* command, AoArguments& a) {
     command
         ->add_option("--attribute", a.attribute,
                      "vertex attribute to write: COLOR_0 or a name with leading _\n"
-                     "value: fraction of uniform light that arrives, 0 to 1\n"
-                     "COLOR_0: its existing colors are multiplied by the value; other names: replaced\n"
+                     "value: fraction of the light of a uniform sky that arrives, 0 to 1\n"
+                     "COLOR_0: the value as grey, multiplied by existing vertex colors\n"
+                     "other names, as _AO: one number per vertex; an existing attribute is replaced\n"
                      "not with --texels and --occluders; _BENT_NORMAL: not with --bent-normals")
         ->default_str("COLOR_0")
         ->excludes(texels);
@@ -322,10 +323,11 @@ void add_falloff(CLI::App* command, Falloff& falloff) {
         ->allow_extra_args(false)
         ->type_name("DISTANCE[:SHARE],...");
     command
-        ->add_option("--max-distance", falloff.farthest,
-                     "ignore surfaces beyond X metres, above 0; default: no limit\n"
-                     "nearer surfaces block light as with --falloff; without --falloff they block all light\n"
-                     "not with --occluders")
+        ->add_option(
+            "--max-distance", falloff.farthest,
+            "ignore surfaces beyond X metres, above 0; default: no limit\n"
+            "nearer surfaces block all light, or with --falloff the part that it gives for their distance\n"
+            "not with --occluders")
         ->check(above_zero());
 }
 

@@ -53,7 +53,8 @@ constexpr Choice<BakeMethod> kBakeMethods[] = {
     {"raster", BakeMethod::raster,
      "depth maps from --rays N directions, by OpenGL 4.5; only direct light at vertices\n"
      "  not with --bounces above 0, --texels, --volume, --refine, --target-error, --fit surface\n"
-     "  not with --instances shared; light of lamps is traced by rays on the CPU\n"
+     "  not with --instances shared; --instances auto acts as own\n"
+     "  light of lamps is traced by rays on the CPU\n"
      "  --device auto: a hardware GPU, else error; gpu: also a software driver; others: error"}};
 constexpr Choice<std::optional<TransferStorage>> kStorages[] = {
     {"auto", std::nullopt,
@@ -223,7 +224,8 @@ void add_method(CLI::App* command, BakeOptions& options) {
     choice(command, "--denoise", options.repairs.denoise, kDenoise,
            "removal of the noise of rays from the baked light\n"
            "no effect with --refine, --fit surface (also if --fit auto chooses it), --method raster\n"
-           "no effect on shared instances, direct light of lamps, and probes of --volume",
+           "no effect if --instances shares transfer; no effect on direct light of lamps, on probes of\n"
+           "  --volume, and on materials with subsurface scattering or diffuse transmission",
            "on");
     add_device(command, options.tracer);
     add_fit(command, options.fit,
@@ -533,7 +535,8 @@ void add_bake(CLI::App& app, Session& session) {
         ->excludes(rays);
     add_transport(command, a.options);
     add_lamps(command, a.options.lamps);
-    add_lamp_scale(command, a.reading.lamp_scale);
+    add_lamp_scale(command, a.reading.lamp_scale,
+                   "\nthe written file contains the scaled lights; do not scale them again");
     add_no_shadow(command, a.no_shadow, "\nno effect on the model of --high-poly");
     add_method(command, a.options);
     add_refinement(command, a);

@@ -98,6 +98,7 @@ void add_bench_device(CLI::App* command, BenchArguments& a, CLI::Option* scene) 
             "GPU that traces rays, in addition to the CPU; default: automatic\n"
             "N: the GPU with this number in the list of --device list\n"
             "NAME: the only GPU whose name in the list contains NAME, in upper or lower case\n"
+            "  an error if no GPU or more than one GPU matches\n"
             "list: print the list of GPUs and exit; not with a scene, --json or --report\n"
             "default: a hardware GPU before a software driver, then the one with the largest memory\n"
             "  without a GPU, its runs are skipped; no effect on depth maps, which OpenGL draws")

@@ -189,7 +189,7 @@ void add_evaluate(CLI::App& app, Session& session) {
     command
         ->add_option(
             "shipped", a.shipped,
-            "compressed file of the first file, or another bake to compare\n"
+            "file compressed from the first file, or another bake to compare\n"
             "                              other bake: same vertices or texels, and same SH order (--order)\n"
             "                              not needed with --measure")
         ->check(named);
@@ -211,7 +211,7 @@ void add_evaluate(CLI::App& app, Session& session) {
     command
         ->add_option("--rotations", a.rotations,
                      "number of rotations about +Y of each file of --lights\n"
-                     "equally spaced over 360 degrees, 1 to 64; 1: only the rotation of --rotate\n"
+                     "equally spaced over 360 degrees, the first at --rotate; 1 to 64; 1: only the first\n"
                      "needs --lights; only 1 with --measure budget and with --measure volume")
         ->capture_default_str()
         ->check(CLI::Range(1, 64))

@@ -17,10 +17,13 @@ namespace {
 
 constexpr const char* kMaxErrorText =
     "find the fewest bytes per vertex with at most this error\n"
-    "relative L2 over the surface against path tracing, root mean square over --lights\n"
-    "lamps of the scene are off; each light has only the rotation of --rotate\n"
+    "X: above 0; relative L2 over the surface against path tracing\n"
+    "  root mean square over --lights\n"
+    "  lamps of the scene are off, and each light has only the rotation of --rotate\n"
+    "if no result has at most X, an error; --best-effort then writes the closest result\n"
     "default: 0.03 (3 %), or 1.2 times the error before compression if that is larger\n"
-    "  no limit with --bytes-per-vertex, which cannot be combined with it";
+    "  if it is not met, the closest result is written\n"
+    "not with --bytes-per-vertex, which has no limit of the error";
 
 struct MakeArguments {
     MakeRequest request;
@@ -68,10 +71,10 @@ void add_goals(CLI::App* command, MakeGoal& goal) {
             "X: above 0; default: no limit")
         ->check(above_zero());
     command
-        ->add_flag(
-            "--best-effort", goal.best_effort,
-            "write the closest result if --max-error is not met; default: error\n"
-            "needs --max-error; without it and --bytes-per-vertex, the closest result is always written")
+        ->add_flag("--best-effort", goal.best_effort,
+                   "write the closest result if --max-error is not met; default: error\n"
+                   "needs --max-error; not with --bytes-per-vertex\n"
+                   "without these two options, the closest result is always written")
         ->needs(error);
 }
 
@@ -88,7 +91,10 @@ void add_make(CLI::App& app, Session& session) {
         run(std::move(given), session);
     });
     MakeRequest& r = a.request;
-    command->add_option("scene", r.scene, "scene to bake and compress: glTF 2.0, .gltf or .glb")
+    command
+        ->add_option("scene", r.scene,
+                     "scene to bake and compress: glTF 2.0, .gltf or .glb\n"
+                     "                              a material with subsurface scattering is an error")
         ->required()
         ->check(named);
     add_output(command, r.output, "write the compressed model to this file, .glb");
@@ -104,7 +110,8 @@ void add_make(CLI::App& app, Session& session) {
                      "also write the bake before compression to this file; default: no file")
         ->check(named)
         ->type_name("FILE.glb");
-    add_lamp_scale(command, r.reading.lamp_scale);
+    add_lamp_scale(command, r.reading.lamp_scale,
+                   "\nthe written file contains the scaled lights; do not scale them again");
     add_no_shadow(command, r.no_shadow);
     add_back_sides(command, r.back_sides);
     const std::size_t before = command->get_options().size();

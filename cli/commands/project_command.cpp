@@ -133,17 +133,21 @@ void add_project(CLI::App& app, Session& session) {
                      "environment image (.exr, .hdr, .png, .jpg) or light file (.json)\n"
                      "                              light file: output of prt project, at least of the order "
                      "of --order\n"
-                     "                              name with {face}, as sky_{face}.hdr: six images, the "
-                     "faces of a cube\n"
-                     "                              {face} is px, nx, py, ny, pz, nz, or posx, ..., +x, ..., "
-                     "right, ...")
+                     "                              name with the text {face}, as sky_{face}.hdr: six sides "
+                     "of a cube\n"
+                     "                              files of the sides +x -x +y -y +z -z: px nx py ny pz nz "
+                     "instead of\n"
+                     "                              {face}, or PX NX PY NY PZ NZ, or posx negx posy negy "
+                     "posz negz, or\n"
+                     "                              +x -x +y -y +z -z, or right left top bottom front back")
         ->required()
         ->check(named);
     add_output(command, a.output, "write the light to this file, .json");
     command
         ->add_option("--order", a.order,
                      "SH order N of the light, 1 to 10: N² coefficients\n"
-                     "at least the order of the models that it lights: prt bake --order, without transfer 6\n"
+                     "at least the order of the models that it lights: that of prt bake --order\n"
+                     "  for models without transfer: 6\n"
                      "light file as input: at most the order of that file")
         ->capture_default_str()
         ->check(CLI::Range(1, kMaxOrder));

@@ -35,9 +35,9 @@ constexpr Choice<ColorKind> kColors[] = {
     {"radiance", ColorKind::radiance, "radiance of a surface with albedo 1; linear, float32"},
     {"albedo", ColorKind::albedo, "radiance times the base color of the surface; linear, float32"},
     {"unlit", ColorKind::unlit,
-     "radiance times --exposure, 16 bits, clipped at 1; materials become unlit\n"
-     "  multiplied by vertex colors of the scene; for Blender and viewers\n"
-     "  glass, emissive and unlit materials do not change"}};
+     "radiance times --exposure and existing vertex colors; 16 bits, clipped at 1\n"
+     "  materials become unlit; for Blender and viewers\n"
+     "  glass, emissive and unlit materials and vertex colors of their surfaces do not change"}};
 
 struct RelightArguments {
     Path model, environment, output, json;
@@ -219,7 +219,7 @@ void add_relight(CLI::App& app, Session& session) {
     add_light(command, a.environment);
     add_output(command, a.output,
                "write the model with light as vertex colors to this .glb\n"
-               "existing vertex colors are replaced, with --colors unlit multiplied by the light\n"
+               "existing vertex colors are replaced; with --colors unlit they are multiplied or kept\n"
                "the file contains no transfer of vertices; a volume remains");
     add_suns(command, a.suns,
              std::string("number of suns of --lights with sharp shadows, traced by rays\n"

@@ -644,7 +644,7 @@ void add_render(CLI::App& app, Session& session) {
     add_light(command, a.environment);
     add_output(command, a.output,
                "write the picture to this file, .png or .exr\n"
-               ".png: 8 bits; with --show lit exposed and with --tone-map, else sRGB\n"
+               ".png: 8 bits; --show lit: with --exposure and --tone-map; others: not exposed, sRGB curve\n"
                ".exr: float32, linear values without exposure and tone curve");
     add_view(command, a.view);
     add_shown(command, a);

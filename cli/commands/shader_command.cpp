@@ -211,7 +211,7 @@ void add_shader(CLI::App& app, Session& session) {
     command
         ->add_option(
             "model", a.model,
-            "model to relight: the output of prt compress, .glb\n"
+            "model to relight: the output of prt compress or prt make, .glb\n"
             "                              --stage lobes: output of prt lobes; occluders: any .gltf or .glb")
         ->required()
         ->check(named);
@@ -220,8 +220,8 @@ void add_shader(CLI::App& app, Session& session) {
                "text, with any suffix, as .vert; suffixes of other formats, as .glb or .json, are an error");
     choice(command, "--language", a.language, kLanguages,
            "shading language of the written source\n"
-           "compute and volume-compute: only glsl450 and vulkan\n"
-           "volume, occluders and lobes: no effect, the same functions for all languages",
+           "--stage compute and volume-compute: only glsl450 and vulkan\n"
+           "--stage volume, occluders and lobes: no effect, the same functions for all languages",
            "glsl450");
     choice(command, "--constants", a.constants, kConstants,
            "GPU storage of the constants\n"
