@@ -91,10 +91,12 @@ void add_output(CLI::App* command, Path& output, const std::string& text) {
 
 void add_reading(CLI::App* command, ReadingOptions& reading, double* limit) {
     reading.notify = print_notices;
-    command->add_flag("--allow-outside", reading.allow_outside,
-                      "let the scene read files outside its folder; for trusted scenes only\n"
-                      "files: buffers and textures; folder: that of the scene file, with its subfolders\n"
-                      "default: buffers outside are an error; textures outside are missing (--bad-textures)");
+    command->add_flag(
+        "--allow-outside", reading.allow_outside,
+        "let scenes read files outside their folder; for trusted scenes only\n"
+        "scenes: all .gltf and .glb files that the command reads\n"
+        "files: buffers and textures; folder: that of the scene that names them, with subfolders\n"
+        "default: buffers outside are an error; textures outside are missing (--bad-textures)");
     choice(command, "--bad-textures", reading.bad_textures, kBadTextures,
            "handling of missing, damaged or unsupported textures", "error");
     command
@@ -185,6 +187,7 @@ CLI::Option* add_device(CLI::App* command, TracerChoice& tracer) {
         .detail("N: the GPU with this number in the list of prt bench --device list")
         .detail(
             "NAME: the only GPU whose name in that list contains NAME; upper or lower case; else an error")
+        .detail("prt bake --method raster: only auto and gpu, which then use OpenGL 4.5")
         .key("traversal", names_of(kTraversals), "how a GPU traces rays [auto]",
              [&tracer](const std::string& name) { tracer.traversal = chosen("--device", kTraversals, name); })
         .detail("  auto: device if the GPU has ray queries, else compute")
