@@ -83,7 +83,7 @@ void add_preset(CLI::App* command, SearchOptions& o) {
     count_or_auto(command, "--clusters", {1, 65536}, o.compress.clusters, o.choose_clusters,
                   "limit of clusters, 1 to 65536; default: 256, or auto with a goal\n"
                   "auto: chosen for a goal, which it needs: --max-error, --bytes-per-vertex or --shader-ops\n"
-                  "not with a --preset other than custom\n"
+                  "not with a --preset other than custom; no effect on the probes of a volume\n"
                   "with --bits float, the default is lower for small meshes, as with presets");
     count_or_auto(
         command, "--components", {0, 3 * coefficient_count(kMaxOrder)}, o.compress.coding.components,
@@ -123,8 +123,9 @@ void add_goals(CLI::App* command, SearchOptions& o) {
             "--max-error", o.budget.max_error,
             "find the fewest bytes per vertex with at most this relative L2 error\n"
             "X: error of the lit surface, above 0; 0.01: 1 %; not of the probes of a volume\n"
-            "  for each sky of --lights at every rotation about +Y, with its suns in the sky and,\n"
-            "  without --combine-direct, separate; natural and plain: on average over the light\n"
+            "  for each sky of --lights at every rotation about +Y, with its suns in the sky, and if\n"
+            "  the result has direct and indirect transfer, also separate (without their direct light)\n"
+            "  natural and plain: on average over the light\n"
             "X also limits the contrast error, which is relative to the local brightness:\n"
             "  a root mean square over all skies, and one over all lamps with one lamp lit at a time\n"
             "as the only goal it also sets --max-jump 0.05; an error if no result meets the goals\n"
@@ -169,7 +170,7 @@ void add_writing(CLI::App* command, CompressArguments& a) {
         "--combine-direct", a.writing.whole,
         "merge direct and indirect transfer: fewer bytes, no sharp sun shadows\n"
         "suns become part of the sky, with soft shadows only; lamps and volumes are not merged\n"
-        "default: separate, so that a renderer can draw sharp shadows of suns");
+        "default: separate; a renderer can then draw sharp shadows of suns");
     command
         ->add_option(
             "--fallback", a.writing.fallback,

@@ -113,6 +113,7 @@ CLI::Option* add_light(CLI::App* command, Path& light) {
             std::string(
                 "sky and suns that light the model\n"
                 "prt relight of a model without baked lamps needs --lights\n"
+                "no effect on prt render --show clusters and ao\n"
                 "light file: at least the order of the model; render without transfer: at least 6\n") +
                 kLightFiles)
         ->check(named)
@@ -176,8 +177,9 @@ void add_lamps(CLI::App* command, LampChoice& lamps) {
             "FILE: .json with a factor or [red, green, blue] for each lamp name; \"*\": all other lamps\n"
             "  as {\"desk\": 0.5, \"*\": [1, 0.9, 0.8]}; without \"*\", lamps that are not listed have 1\n"
             "factors: 0 to 1e9, multiply the baked strengths\n"
-            "name: of a light, an emissive material, or a group (not its members) of prt bake --lamps\n"
-            "  other names are an error; prt info --json lists the names")
+            "name: of the node of a light (if it has none, of the light), of an emissive material, or of\n"
+            "  a group of prt bake --lamps (not of its members); prt info --json lists the names\n"
+            "  other names are an error")
         ->type_name("on|off|FILE")
         ->default_str("on");
 }
@@ -215,6 +217,8 @@ void add_metric(CLI::App* command, MetricArguments& arguments) {
                 "\nlight file: at least of the order of the bake; repeat the option for several files\n"
                 "a family cannot be combined with other lights\n"
                 "outdoor, indoor, day and FILE: mean of all rotations about +Y\n"
+                "suns of the lights: in the sky, and if the result has direct and indirect transfer, also\n"
+                "  separate (without their direct light)\n"
                 "with every FAMILY and FILE, the error of the lamps of the bake is also minimized")
         ->allow_extra_args(false) // one each time, so that the bake may follow
         ->check(named)

@@ -94,7 +94,7 @@ void add_reading(CLI::App* command, ReadingOptions& reading, double* limit) {
     command->add_flag("--allow-outside", reading.allow_outside,
                       "let scenes read files outside their folders; for trusted scenes only\n"
                       "scenes: all .gltf and .glb inputs; files: buffers and textures\n"
-                      "folder: that of the scene file, with its subfolders; a link counts as its target\n"
+                      "folder: that of the scene that names the file, with subfolders; links count as their targets\n"
                       "default: buffers outside are an error; textures outside are missing (--bad-textures)");
     choice(command, "--bad-textures", reading.bad_textures, kBadTextures,
            "handling of missing, damaged or unsupported textures", "error");
@@ -186,6 +186,7 @@ CLI::Option* add_device(CLI::App* command, TracerChoice& tracer) {
         .detail("N: the GPU with this number in the list of prt bench --device list")
         .detail(
             "NAME: the only GPU whose name in that list contains NAME; upper or lower case; else an error")
+        .detail("prt bake --method raster: only auto and gpu, which then use OpenGL 4.5")
         .key("traversal", names_of(kTraversals), "how a GPU traces rays [auto]",
              [&tracer](const std::string& name) { tracer.traversal = chosen("--device", kTraversals, name); })
         .detail("  auto: device if the GPU has ray queries, else compute")

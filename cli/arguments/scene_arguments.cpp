@@ -12,7 +12,7 @@ namespace {
 
 constexpr Choice<BackSides> kBackSides[] = {
     {"auto", BackSides::automatic,
-     "add vertices for back sides that light reaches, so that each side has its own light\n"
+     "add vertices for back sides that light reaches; each side then has its own light\n"
      "  light: of lamps, and of the sky above the horizon; also after reflections"},
     {"shared", BackSides::shared, "back sides show the light of the front sides"}};
 constexpr Choice<LevelMode> kLevelModes[] = {

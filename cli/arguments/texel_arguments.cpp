@@ -70,6 +70,7 @@ CLI::Option* add_texels(CLI::App* command, TexelArguments& a, const std::string&
             .detail(
                 "    has no area, crosses the border of the texture, or needs more than 8192 texels for N/m")
             .detail("  without unwrap, a missing or unusable set is an error")
+            .detail("  with unwrap, N is an error if the new charts do not fit")
             .whole_number("uv", 0, 7, "set of texture coordinates to use, TEXCOORD_N, 0 to 7 [1]",
                           [&a](int set) { a.texels.uv_set = set; })
             .key("atlas", names_of(kAtlasModes),

@@ -286,6 +286,7 @@ void add_outputs(CLI::App* command, AoArguments& a) {
     command->add_flag("--bent-normals", a.outputs.bent_normals,
                       "also write bent normals: the mean directions that are not blocked\n"
                       "unit vectors n in the coordinate frame of the scene; not with --occluders\n"
+                      "where all directions are blocked: the normal of the vertex; in textures, +Y\n"
                       "vertices: the attribute _BENT_NORMAL\n"
                       "--texels: textures of n / 2 + 1/2, extras.prtkit.bentNormalTexture of the materials");
     command

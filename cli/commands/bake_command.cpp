@@ -232,8 +232,8 @@ void add_method(CLI::App* command, BakeOptions& options) {
             "measure light at the vertices, or at points between them\n"
             "not with --texels\n"
             "with --refine: auto acts as surface; vertex is an error\n"
-            "with --target-error, --method raster, --instances shared: auto acts as vertex; surface is an\n"
-            "  error; with --instances auto, surface bakes each instance as own");
+            "with --target-error, --method raster and shared instances: auto acts as vertex\n"
+            "  surface is an error there; with --instances auto, it bakes each instance as own");
     Suboptions("--method", names_of(kBakeMethods), "method that finds which directions are blocked",
                [&options](const std::string& name) {
                    options.tracer.method = chosen("--method", kBakeMethods, name);
@@ -527,7 +527,7 @@ void add_bake(CLI::App& app, Session& session) {
         ->add_option(
             "--target-error", a.options.target_error,
             "trace rays until direct light has at most this relative L2 noise\n"
-            "0.01: 1 %, over the whole surface, before --denoise; light of the sky, not of lamps\n"
+            "X: above 0; 0.01: 1 %; over the whole surface, before --denoise; sky only, not lamps\n"
             "the number of rays differs between vertices, at most 2^24 each; default: that of --rays\n"
             "not with --rays, --texels, --volume, --refine, --fit surface, --method raster,\n"
             "  --instances shared")

@@ -123,7 +123,8 @@ void add_bench(CLI::App& app, Session& session) {
         ->add_option_function<std::string>(
             "--rays", [&a](const std::string& text) { set_rays(text, a.options); },
             "rays per vertex: FROM, doubled in each next run up to TO\n"
-            "1 to 262144, FROM at most TO; with depth maps: number of directions")
+            "1 to 262144, FROM at most TO; with depth maps: number of directions\n"
+            "the reference of the error has 64 times TO rays")
         ->type_name("FROM..TO")
         ->default_str(fmt::format("{}..{}", a.options.fewest_rays, a.options.max_rays));
     Suboptions("--method", "", "setting of the runs that use depth maps (prt bake --method raster)", nullptr)

@@ -595,7 +595,7 @@ void add_compress(CLI::App& app, Session& session) {
         resolve(*command, given);
         run(given, session);
     });
-    command->add_option("baked", a.baked, "bake to compress: the output of prt bake")
+    command->add_option("baked", a.baked, "bake to compress: output of prt bake, or of prt make --keep-bake")
         ->required()
         ->check(named);
     add_output(command, a.output, "write the compressed model to this file, .glb");

@@ -35,7 +35,8 @@ constexpr Choice<Measure> kMeasures[] = {
      "  not for bakes with subsurface scattering, --high-poly or --enclosed keep"},
     {"volume", Measure::volume,
      "error of the probe volume against path tracing, by distance from surfaces\n"
-     "  the first file must contain a volume; if a second file is given, its compressed volume\n"
+     "  the first file must contain a volume; if a second file is given, it must contain the\n"
+     "  compressed volume\n"
      "  not with --rotations above 1"}};
 
 struct EvaluateArguments {
@@ -189,8 +190,10 @@ void add_evaluate(CLI::App& app, Session& session) {
     command
         ->add_option(
             "shipped", a.shipped,
-            "file compressed from the first file, or another bake to compare\n"
-            "                              other bake: same vertices or texels, and same SH order (--order)\n"
+            "compressed file made from the first file, or another bake to compare\n"
+            "                              other bake: same vertices or texels, SH order (--order) and "
+            "lamps\n"
+            "                              lamps: same names; --lamps all and indirect can be compared\n"
             "                              not needed with --measure")
         ->check(named);
     CLI::Option* lights =
@@ -198,16 +201,22 @@ void add_evaluate(CLI::App& app, Session& session) {
             command, a.lights,
             "light under which errors are measured\n"
             "default: built-in lights: a uniform sky, an overcast sky and a sun; FILE replaces all three\n"
-            "with a second file also: the worst of 64 suns, random light, all lamps, each lamp alone")
+            "with a second file also: these lights together with all lamps of the bake;\n"
+            "  the worst of 64 suns, random light, all lamps, each lamp alone\n"
+            "light file: at least the order of the first file")
             ->default_str("three built-in lights");
     add_light_options(command, a.light_options);
-    add_suns(command, a.suns,
-             std::string("number of suns of --lights for which a renderer has shadow maps\n"
-                         "errors are measured with these suns in the sky, and with these suns separate\n"
-                         "only in the sky: shipped of prt compress --combine-direct, and --measure sweep\n"
-                         "needs --lights\n") +
-                 kSunsOfLightFiles,
-             "auto");
+    add_suns(
+        command, a.suns,
+        std::string("number of suns of --lights for which a renderer has shadow maps\n"
+                    "needs --lights; separate suns: without their direct light, which a renderer adds\n"
+                    "errors of shipped: with these suns in the sky, and with these suns separate\n"
+                    "  only in the sky: after prt compress --combine-direct, with lamps, and coarser levels\n"
+                    "  only separate: errors of clusters and of shared instances\n"
+                    "--measure sweep: only in the sky; budget and volume: only separate\n"
+                    "  budget after prt compress --combine-direct: only in the sky\n") +
+            kSunsOfLightFiles,
+        "auto");
     command
         ->add_option("--rotations", a.rotations,
                      "number of rotations about +Y of each file of --lights\n"

@@ -59,7 +59,7 @@ void add_goals(CLI::App* command, MakeGoal& goal) {
                      "  vertices: those of the written model, to which prt make can add some\n"
                      "if no result has at most X bytes, an error\n"
                      "order, bounces, rays and added vertices are chosen as for --max-error 0.01\n"
-                     "replaces the goal --max-error and cannot be combined with it")
+                     "replaces the goal --max-error; not with --max-error and --best-effort")
         ->check(above_zero())
         ->excludes(error);
     command
@@ -107,7 +107,8 @@ void add_make(CLI::App& app, Session& session) {
     add_goals(command, r.goal);
     command
         ->add_option("--keep-bake", r.baked,
-                     "also write the bake before compression to this file; default: no file")
+                     "also write the bake before compression to this file; default: no file\n"
+                     "the file is like one of prt bake: for prt compress, prt evaluate, prt render --baked")
         ->check(named)
         ->type_name("FILE.glb");
     add_lamp_scale(command, r.reading.lamp_scale,

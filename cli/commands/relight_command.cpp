@@ -213,7 +213,9 @@ void add_relight(CLI::App& app, Session& session) {
         check_light_options(*command, !given.environment.empty());
         run(given, session);
     });
-    command->add_option("model", a.model, "model to light: output of prt bake, compress or make; no lightmap")
+    command
+        ->add_option("model", a.model,
+                     "model to light: output of prt bake, compress or make, without lightmap")
         ->required()
         ->check(named);
     add_light(command, a.environment);

@@ -81,7 +81,8 @@ struct RenderArguments {
 
 constexpr Choice<Show> kShows[] = {
     {"lit", Show::lit, "the model in the light of sky and lamps"},
-    {"clusters", Show::clusters, "a color for each cluster; needs a compressed model"},
+    {"clusters", Show::clusters,
+     "a color for each cluster; needs a compressed model without shared instances"},
     {"error", Show::error,
      "error against a reference: needs either --baked or --path-trace\n"
      "  --baked: contrast error, white: 10 %; --path-trace: HDR-FLIP, white: 1"},
@@ -651,10 +652,13 @@ void add_render(CLI::App& app, Session& session) {
     add_look(command, a);
     add_light_options(command, a.light_options);
     add_suns(command, a.lights.suns,
-             std::string("number of suns of --lights that are drawn with sharp shadows\n"
-                         "needs --lights; no effect on --show clusters and ao, and on path-traced pictures\n"
-                         "more than 4 suns: drawn by the CPU; an error with --device gpu\n"
-                         "after prt compress --combine-direct or prt lobes: only 0, and auto acts as 0\n") +
+             std::string(
+                 "number of suns of --lights that are drawn with sharp shadows\n"
+                 "needs --lights; no effect on --show clusters and ao, and on path-traced pictures\n"
+                 "more than 4 suns, or any after prt bake --subsurface: drawn by the CPU\n"
+                 "  --device gpu: more than 4 are an error; after --subsurface only 0, and auto acts as 0\n"
+                 "--show error --baked: the direct light of these suns is not part of the error\n"
+                 "after prt compress --combine-direct or prt lobes: only 0, and auto acts as 0\n") +
                  kSunsOfLightFiles,
              "auto", &a.lights.sun_rays);
     command->get_option("--suns")->needs("--lights");

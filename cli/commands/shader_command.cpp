@@ -44,11 +44,9 @@ constexpr Choice<ConstantSource> kConstants[] = {
 constexpr Choice<Stage> kStages[] = {
     {"vertex", Stage::vertex,
      "vertex shader that relights vertices\n"
-     "  for a lightmap: compute shader (glsl450, vulkan) or fragment shader that relights texels\n"
-     "  for a file with only a volume: as volume"},
+     "  for a lightmap: compute shader (glsl450, vulkan) or fragment shader that relights texels"},
     {"compute", Stage::compute,
-     "compute shader that computes the constants of a lighting; only glsl450 and vulkan\n"
-     "  for a file with only a volume: as volume-compute"},
+     "compute shader that computes the constants of a lighting; only glsl450 and vulkan"},
     {"fragment", Stage::fragment, "fragment shader that relights the texels of a lightmap; needs a lightmap"},
     {"instances", Stage::instances, "vertex shader for instances of prt bake --instances shared"},
     {"volume", Stage::volume, "functions that read the light of the probe volume, for all languages"},
@@ -229,7 +227,12 @@ void add_shader(CLI::App& app, Session& session) {
            "no effect on stages except vertex, fragment, instances, and on files with only a volume\n"
            "default: buffer if the language has it",
            "buffer, else texture");
-    choice(command, "--stage", a.stage, kStages, "shader to write", "vertex")->type_name("STAGE");
+    choice(command, "--stage", a.stage, kStages,
+           "shader to write\n"
+           "if the file has only a volume: vertex, fragment and instances act as volume, compute as\n"
+           "  volume-compute",
+           "vertex")
+        ->type_name("STAGE");
     add_reading(command, a.reading);
 }
 
