@@ -94,7 +94,7 @@ void add_reading(CLI::App* command, ReadingOptions& reading, double* limit) {
     command->add_flag("--allow-outside", reading.allow_outside,
                       "let scenes read files outside their folders; for trusted scenes only\n"
                       "scenes: all .gltf and .glb inputs; files: buffers and textures\n"
-                      "folder: that of the scene that names the file, with subfolders; links count as their targets\n"
+                      "folder: that of the scene that names the file; a link counts as its target\n"
                       "default: buffers outside are an error; textures outside are missing (--bad-textures)");
     choice(command, "--bad-textures", reading.bad_textures, kBadTextures,
            "handling of missing, damaged or unsupported textures", "error");

@@ -61,4 +61,14 @@ bool is_supported_extension(std::string_view name) {
            kSupportedExtensions.end();
 }
 
+void check_required_extensions(const Json& json) {
+    if (!json.contains("extensionsRequired"))
+        return;
+    for (const Json& name : json["extensionsRequired"])
+        if (!name.is_string() || !is_supported_extension(name.get<std::string>()))
+            throw Error("requires the glTF extension " +
+                        (name.is_string() ? name.get<std::string>() : name.dump()) +
+                        ", which is not supported");
+}
+
 } // namespace prt
