@@ -17,7 +17,7 @@ namespace prt {
 /// that transmit light, and solids with a medium inside. Light of the sky below the horizon does not count,
 /// because cameras rarely look from there. Light is followed over up to eight reflections, and each surface
 /// counts as reflecting half of it. `options` are those of the bake that follows. Pass the result to
-/// `with_separate_sides` (runtime/scene/gltf/separate_sides.h), which creates the vertices. Uses random paths
+/// `with_separate_sides` (bake/gltf/separate_sides.h), which creates the vertices. Uses random paths
 /// with the seed of `options`; the result does not depend on the number of threads. Throws `Error` for media
 /// and lamp groups that `bake` does not accept; other options are not checked. Also throws the errors of
 /// `load_textures` and RayScene::RayScene, and `Cancelled` after a stop request. Does not throw if no

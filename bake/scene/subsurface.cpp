@@ -3,7 +3,7 @@
 
 #include "prt/bake/bake_options.h"
 
-#include "runtime/scene/light_passing.h"
+#include "runtime/load/light_passing.h"
 
 #include <algorithm>
 #include <array>

@@ -6,7 +6,7 @@
 #include "bake/scene/interpolated.h"
 #include "prt/core/light.h"
 #include "prt/render/tone_map.h"
-#include "runtime/scene/light_passing.h"
+#include "runtime/load/light_passing.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -2,7 +2,7 @@
 
 #include "bake/trace_gpu/alpha_tables.h"
 
-#include "runtime/scene/light_passing.h"
+#include "runtime/load/light_passing.h"
 
 #include <glm/geometric.hpp>
 

@@ -2,6 +2,7 @@
 
 #include "cli/commands/commands.h"
 
+#include "bake/gltf/encode_glb.h"
 #include "cli/arguments/options.h"
 #include "cli/arguments/scene_arguments.h"
 #include "cli/arguments/texel_arguments.h"
@@ -12,7 +13,6 @@
 #include "cli/program/session.h"
 #include "prt/bake/ambient_occlusion.h"
 #include "prt/image/image_file.h"
-#include "runtime/scene/gltf/encode_glb.h"
 #include "runtime/support/stopwatch.h"
 
 #include <fmt/core.h>

@@ -2,6 +2,7 @@
 
 #include "cli/commands/commands.h"
 
+#include "bake/gltf/encode_glb.h"
 #include "bake/reference/scene_lamps.h"
 #include "cli/arguments/light_arguments.h"
 #include "cli/arguments/options.h"
@@ -23,7 +24,6 @@
 #include "prt/bake/refine.h"
 #include "prt/core/error.h"
 #include "prt/gltf/transfer_gltf.h"
-#include "runtime/scene/gltf/encode_glb.h"
 
 #include <fmt/core.h>
 

@@ -2,6 +2,9 @@
 
 #include "cli/commands/commands.h"
 
+#include "bake/gltf/encode_glb.h"
+#include "bake/gltf/reorder.h"
+#include "bake/gltf/stored_transfer.h"
 #include "cli/arguments/compress_arguments.h"
 #include "cli/arguments/light_arguments.h"
 #include "cli/arguments/options.h"
@@ -23,10 +26,7 @@
 #include "prt/gltf/levels.h"
 #include "prt/gltf/transfer_gltf.h"
 #include "prt/render/lightmap_file.h"
-#include "runtime/scene/gltf/encode_glb.h"
-#include "runtime/scene/gltf/reorder.h"
-#include "runtime/scene/gltf/stored_transfer.h"
-#include "runtime/scene/mesh_edges.h"
+#include "runtime/load/mesh_edges.h"
 
 #include <fmt/ranges.h>
 
@@ -255,7 +255,8 @@ std::vector<std::byte> encoded(const CompressArguments& a, Bake bake, Scene& sce
     const BufferCompression buffers = buffer_compression(a);
     if (bake.lightmap) {
         bake.lightmap->baked.record = bake.stored.record;
-        write_lightmap(document, scene, scatter_to_maps(*bake.lightmap, std::move(compressed)));
+        write_encoded_lightmap(document, scene,
+                               encoded_lightmap(scatter_to_maps(*bake.lightmap, std::move(compressed))));
         return encode_glb(document, buffers);
     }
     CompressedTransfer result{std::move(compressed), bake.stored.record};

@@ -2,6 +2,7 @@
 
 #include "cli/commands/commands.h"
 
+#include "bake/gltf/encode_glb.h"
 #include "cli/arguments/options.h"
 #include "cli/arguments/suboptions.h"
 #include "cli/pipeline/lobe_errors.h"
@@ -11,7 +12,6 @@
 #include "prt/core/error.h"
 #include "prt/fit/lobe_fit.h"
 #include "prt/gltf/transfer_gltf.h"
-#include "runtime/scene/gltf/encode_glb.h"
 #include "runtime/support/stopwatch.h"
 
 #include <fmt/core.h>

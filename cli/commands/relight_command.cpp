@@ -2,6 +2,8 @@
 
 #include "cli/commands/commands.h"
 
+#include "bake/gltf/encode_glb.h"
+#include "bake/gltf/vertex_fallback.h"
 #include "bake/pipeline/sun_radiance.h"
 #include "bake/reference/light_meter.h"
 #include "cli/arguments/light_arguments.h"
@@ -13,8 +15,6 @@
 #include "cli/program/outputs.h"
 #include "cli/program/session.h"
 #include "prt/core/error.h"
-#include "runtime/scene/gltf/encode_glb.h"
-#include "runtime/scene/gltf/vertex_fallback.h"
 #include "runtime/support/stopwatch.h"
 
 #include <fmt/core.h>

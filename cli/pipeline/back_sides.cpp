@@ -2,10 +2,10 @@
 
 #include "cli/pipeline/back_sides.h"
 
+#include "bake/gltf/separate_sides.h"
 #include "bake/refine/sides.h"
 #include "cli/pipeline/no_shadow.h"
 #include "prt/gltf/levels.h"
-#include "runtime/scene/gltf/separate_sides.h"
 #include "runtime/support/counted.h"
 
 #include <fmt/core.h>

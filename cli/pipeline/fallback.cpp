@@ -2,10 +2,10 @@
 
 #include "cli/pipeline/fallback.h"
 
+#include "bake/gltf/encode_glb.h"
+#include "bake/gltf/vertex_fallback.h"
 #include "cli/pipeline/loaded_light.h"
 #include "prt/gltf/levels.h"
-#include "runtime/scene/gltf/encode_glb.h"
-#include "runtime/scene/gltf/vertex_fallback.h"
 
 #include <fmt/core.h>
 

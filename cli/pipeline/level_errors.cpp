@@ -2,8 +2,8 @@
 
 #include "cli/pipeline/level_errors.h"
 
+#include "bake/gltf/reorder.h"
 #include "prt/bake/level_bake.h"
-#include "runtime/scene/gltf/reorder.h"
 
 #include <algorithm>
 #include <map>

@@ -2,6 +2,7 @@
 
 #include "cli/pipeline/make_model.h"
 
+#include "bake/gltf/encode_glb.h"
 #include "cli/pipeline/budget_report.h"
 #include "cli/pipeline/choices.h"
 #include "cli/pipeline/compress_metric.h"
@@ -15,7 +16,6 @@
 #include "prt/compress/search.h"
 #include "prt/core/error.h"
 #include "prt/gltf/levels.h"
-#include "runtime/scene/gltf/encode_glb.h"
 #include "runtime/support/counted.h"
 #include "runtime/support/stopwatch.h"
 

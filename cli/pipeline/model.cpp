@@ -2,10 +2,10 @@
 
 #include "cli/pipeline/model.h"
 
+#include "bake/gltf/reorder.h"
 #include "prt/gltf/levels.h"
 #include "prt/load/light_file.h"
 #include "prt/render/lightmap_file.h"
-#include "runtime/scene/gltf/reorder.h"
 #include "runtime/support/counted.h"
 
 #include <glm/geometric.hpp>
@@ -92,10 +92,10 @@ SceneFile scene_file_of(GltfDocument document, const Path& path, const Notify& n
         lightmap = {std::move(raw->layout), std::move(raw->texels), std::move(raw->areas),
                     std::move(raw->seams), std::move(edges)};
         baked = std::move(raw->baked);
-    } else if (std::optional<CompressedLightmap> shipped =
-                   about(path, [&] { return read_compressed_lightmap(document, scene); })) {
-        lightmap = {std::move(shipped->layout)};
-        compressed = std::move(shipped->compressed);
+    } else if (std::optional<EncodedLightmap> encoded = read_encoded_lightmap(document, scene)) {
+        CompressedLightmap shipped = about(path, [&] { return decoded_lightmap(std::move(*encoded)); });
+        lightmap = {std::move(shipped.layout)};
+        compressed = std::move(shipped.compressed);
     }
     if (!baked && !compressed) // with transfer, the notices were shown when it was baked
         send(notify, path, scene.notices);

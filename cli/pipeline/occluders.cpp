@@ -2,9 +2,9 @@
 
 #include "cli/pipeline/occluders.h"
 
+#include "bake/gltf/rigid_parts.h"
 #include "prt/core/error.h"
 #include "prt/gltf/transfer_gltf.h"
-#include "runtime/scene/gltf/rigid_parts.h"
 
 #include <fmt/core.h>
 #include <glm/geometric.hpp>

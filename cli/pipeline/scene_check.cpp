@@ -2,10 +2,10 @@
 
 #include "cli/pipeline/scene_check.h"
 
+#include "bake/gltf/unread.h"
 #include "prt/bake/texels.h"
 #include "prt/core/error.h"
 #include "prt/render/texture.h"
-#include "runtime/scene/gltf/unread.h"
 #include "runtime/support/counted.h"
 #include "runtime/support/printable.h"
 

@@ -1,7 +1,7 @@
 // Collects receiver data from a scene.
 #include "prt/compress/receiver_surface.h"
 
-#include "runtime/scene/mesh_edges.h"
+#include "runtime/load/mesh_edges.h"
 
 namespace prt {
 

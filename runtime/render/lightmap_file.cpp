@@ -59,7 +59,7 @@ std::vector<std::uint32_t> words_of_map(const CompressedLightmap& lightmap, std:
     return words;
 }
 
-void write_lightmap(GltfDocument& document, const Scene& scene, const CompressedLightmap& lightmap) {
+EncodedLightmap encoded_lightmap(const CompressedLightmap& lightmap) {
     const ClusteredReceivers& receivers = lightmap.compressed.transfer.receivers;
     if (receivers.format != WeightFormat::packed)
         throw Error("the weights of texels must be packed; compress with --bits N");
@@ -68,14 +68,11 @@ void write_lightmap(GltfDocument& document, const Scene& scene, const Compressed
     for (std::size_t m = 0; m < lightmap.layout.maps.size(); ++m)
         for (int w = 0; w < receivers.words; ++w)
             encoded.images.push_back(word_png(lightmap.layout.maps[m], words_of_map(lightmap, m, w)));
-    write_encoded_lightmap(document, scene, encoded);
+    return encoded;
 }
 
-std::optional<CompressedLightmap> read_compressed_lightmap(const GltfDocument& document, const Scene& scene) {
-    std::optional<EncodedLightmap> encoded = read_encoded_lightmap(document, scene);
-    if (!encoded)
-        return std::nullopt;
-    CompressedLightmap& lightmap = encoded->lightmap;
+CompressedLightmap decoded_lightmap(EncodedLightmap encoded) {
+    CompressedLightmap& lightmap = encoded.lightmap;
     ClusteredReceivers& receivers = lightmap.compressed.transfer.receivers;
     const std::vector<std::size_t> first = lightmap.layout.first_texels();
     receivers.clusters.resize(first.back());
@@ -84,7 +81,7 @@ std::optional<CompressedLightmap> read_compressed_lightmap(const GltfDocument& d
     for (std::size_t m = 0; m < lightmap.layout.maps.size(); ++m)
         for (int w = 0; w < receivers.words; ++w)
             try {
-                read_word(encoded->images[image++], lightmap.layout.maps[m], first[m], w, receivers);
+                read_word(encoded.images[image++], lightmap.layout.maps[m], first[m], w, receivers);
             } catch (const Error& error) {
                 throw Error("the image of word " + std::to_string(w) + " of map " + std::to_string(m) + " " +
                             error.what());

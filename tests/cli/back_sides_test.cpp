@@ -1,9 +1,9 @@
 // Both sides of double-sided surfaces, from the command line to the file.
 
+#include "bake/gltf/encode_glb.h"
 #include "pipeline.h"
 #include "prt/gltf/gltf.h"
 #include "prt/gltf/levels.h"
-#include "runtime/scene/gltf/encode_glb.h"
 #include "runtime/support/file.h"
 #include "support/glb_file.h"
 #include "support/scene_builder.h"

@@ -1,8 +1,8 @@
 // prt bake --refine, from the command line to the file.
 
+#include "bake/gltf/encode_glb.h"
 #include "pipeline.h"
 #include "prt/gltf/gltf.h"
-#include "runtime/scene/gltf/encode_glb.h"
 #include "support/glb_file.h"
 
 #include <algorithm>

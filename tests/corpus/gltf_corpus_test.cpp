@@ -2,9 +2,9 @@
 // deviation, with the exact result.
 #include "prt/gltf/gltf.h"
 
+#include "bake/gltf/encode_glb.h"
 #include "prt/core/error.h"
 #include "prt/gltf/animation.h"
-#include "runtime/scene/gltf/encode_glb.h"
 #include "runtime/support/json_tree.h"
 #include "support/glb_file.h"
 #include "support/temporary_folder.h"

@@ -1,12 +1,12 @@
 // Seeds: models.
 #include "seeds.h"
 
+#include "bake/gltf/vertex_fallback.h"
 #include "prt/compress/compress.h"
 #include "prt/gltf/gltf.h"
 #include "prt/gltf/transfer_gltf.h"
 #include "prt/image/image_file.h"
-#include "runtime/scene/gltf/vertex_fallback.h"
-#include "runtime/scene/mesh_edges.h"
+#include "runtime/load/mesh_edges.h"
 #include "runtime/support/file.h"
 #include "support/glb_file.h"
 #include "support/lightmap_model.h"

@@ -3,7 +3,7 @@
 #include "input_file.h"
 #include "whole_model.h"
 
-#include "runtime/scene/gltf/reorder.h"
+#include "bake/gltf/reorder.h"
 #include "runtime/support/file.h"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 
 #include "prt/compress/compress.h"
 #include "prt/gltf/gltf.h"
-#include "runtime/scene/mesh_edges.h"
+#include "runtime/load/mesh_edges.h"
 #include "support/glb_file.h"
 #include "support/scene_builder.h"
 

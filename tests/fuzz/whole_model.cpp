@@ -1,12 +1,12 @@
 // Reads a model as the program does and looks at everything that was read.
 #include "whole_model.h"
 
+#include "bake/gltf/rigid_parts.h"
 #include "prt/core/cluster_lighting.h"
 #include "prt/core/light.h"
 #include "prt/core/lightmap.h"
 #include "prt/gltf/transfer_gltf.h"
 #include "runtime/render/lightmap_lookup.h"
-#include "runtime/scene/gltf/rigid_parts.h"
 #include "target.h"
 
 #include <glm/common.hpp>
@@ -156,7 +156,9 @@ WholeModel read_whole(std::span<const std::byte> file, const std::filesystem::pa
         expect_finite(std::span<const float>(compressed->transfer.receivers.predictors), "predictors");
     }
     auto baked_lightmap = read_lightmap(document, scene);
-    auto lightmap = read_compressed_lightmap(document, scene);
+    std::optional<CompressedLightmap> lightmap;
+    if (auto encoded = read_encoded_lightmap(document, scene))
+        lightmap = decoded_lightmap(std::move(*encoded));
     if (baked_lightmap)
         check_lightmap(scene, *baked_lightmap);
     if (lightmap)

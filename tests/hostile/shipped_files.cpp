@@ -2,10 +2,10 @@
 
 #include "shipped_files.h"
 
+#include "bake/gltf/vertex_fallback.h"
 #include "prt/compress/compress.h"
 #include "prt/compress/compress_volume.h"
 #include "prt/gltf/gltf.h"
-#include "runtime/scene/gltf/vertex_fallback.h"
 #include "support/lightmap_model.h"
 #include "support/predicted.h"
 #include "support/random_lightmap.h"

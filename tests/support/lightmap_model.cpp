@@ -2,7 +2,7 @@
 
 #include "support/lightmap_model.h"
 
-#include "runtime/scene/gltf/encode_glb.h"
+#include "bake/gltf/encode_glb.h"
 #include "support/scene_builder.h"
 
 #include <string>
@@ -10,11 +10,12 @@
 namespace prt::test {
 namespace {
 
-template <class Lightmap>
-GlbFile written(const GlbFile& file, const Lightmap& lightmap) {
+/// Calls `write` with the document of `file` and its scene.
+template <class Write>
+GlbFile written(const GlbFile& file, Write write) {
     const std::string text = file.bytes();
     GltfDocument document = parse_gltf(std::as_bytes(std::span(text)), "floor.glb");
-    write_lightmap(document, extract_scene(document), lightmap);
+    write(document, extract_scene(document));
     return glb_of(encode_glb(document));
 }
 
@@ -63,11 +64,15 @@ BakedLightmap made_up_lightmap(const LightmapLayout& layout, const TransferLayou
 }
 
 GlbFile with_lightmap(const GlbFile& scene, const BakedLightmap& lightmap) {
-    return written(scene, lightmap);
+    return written(scene, [&](GltfDocument& document, const Scene& of_file) {
+        write_lightmap(document, of_file, lightmap);
+    });
 }
 
 GlbFile with_lightmap(const GlbFile& scene, const CompressedLightmap& lightmap) {
-    return written(scene, lightmap);
+    return written(scene, [&](GltfDocument& document, const Scene& of_file) {
+        write_encoded_lightmap(document, of_file, encoded_lightmap(lightmap));
+    });
 }
 
 std::size_t add_image(GlbFile& file, std::span<const std::byte> png, const char* type) {

@@ -2,9 +2,9 @@
 
 #include "support/volume_model.h"
 
+#include "bake/gltf/encode_glb.h"
 #include "prt/gltf/gltf.h"
 #include "prt/gltf/transfer_gltf.h"
-#include "runtime/scene/gltf/encode_glb.h"
 
 #include <string>
 

@@ -4,7 +4,7 @@
 
 #include "prt/bake/texels.h"
 #include "prt/load/scene.h"
-#include "runtime/scene/gltf/vertex_splits.h"
+#include "bake/gltf/vertex_splits.h"
 
 #include <cstddef>
 #include <vector>
@@ -15,7 +15,7 @@ namespace prt {
 struct Unwrapping {
     std::vector<VertexSplit> primitives; ///< [Scene::primitives] new vertices, UVs and triangles
     /// The textures that the UVs refer to. `uv_set` has its default value: the caller sets it to the UV set
-    /// in which `with_texcoords` (runtime/scene/gltf/vertex_splits.h) stores the UVs.
+    /// in which `with_texcoords` (bake/gltf/vertex_splits.h) stores the UVs.
     std::vector<Atlas> atlases;
     std::size_t charts = 0;      ///< number of charts in all textures
     double texels_per_metre = 0; ///< number of texels per metre along an axis, minimum over all textures;

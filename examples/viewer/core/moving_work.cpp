@@ -4,12 +4,12 @@
 
 #include "core/transfer_work.h"
 
+#include "bake/gltf/rigid_parts.h"
 #include "prt/bake/ambient_occlusion.h"
 #include "prt/bake/volume_bake.h"
 #include "prt/compress/compress_volume.h"
 #include "prt/core/error.h"
 #include "prt/gltf/transfer_gltf.h"
-#include "runtime/scene/gltf/rigid_parts.h"
 
 #include <fmt/core.h>
 

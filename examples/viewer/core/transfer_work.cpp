@@ -2,13 +2,13 @@
 
 #include "core/transfer_work.h"
 
+#include "bake/gltf/reorder.h"
 #include "compress/study/receiver_colors.h"
 #include "prt/bake/bake.h"
 #include "prt/bake/lightmap_bake.h"
 #include "prt/compress/search.h"
 #include "prt/core/error.h"
 #include "prt/render/lightmap_file.h"
-#include "runtime/scene/gltf/reorder.h"
 
 #include <fmt/core.h>
 
@@ -155,7 +155,7 @@ void save_compressed(const LoadedModel& loaded, const std::filesystem::path& out
     if (prt::receivers_id(scene) != model.receivers_id)
         throw prt::Error(model.path.string() + ": the file has changed since it was opened");
     if (loaded.of_texels())
-        prt::write_lightmap(document, scene, *loaded.lightmap.compressed);
+        prt::write_encoded_lightmap(document, scene, prt::encoded_lightmap(*loaded.lightmap.compressed));
     else
         prt::write_clustered(document, scene, {*loaded.compressed, loaded.record});
     prt::save_glb(document, output);

@@ -5,7 +5,7 @@
 #include "cli/pipeline/model.h"
 #include "prt/bake/bake.h"
 #include "prt/core/error.h"
-#include "runtime/scene/mesh_edges.h"
+#include "runtime/load/mesh_edges.h"
 
 #include <glm/geometric.hpp>
 

@@ -11,7 +11,7 @@
 #include "prt/gltf/gltf.h"
 #include "prt/gltf/transfer_gltf.h"
 #include "prt/render/picture.h"
-#include "runtime/scene/mesh_edges.h"
+#include "runtime/load/mesh_edges.h"
 
 #include <filesystem>
 #include <memory>

@@ -2,7 +2,7 @@
 
 #include "runtime/render/gl/gl_scene.h"
 
-#include "runtime/scene/light_passing.h"
+#include "runtime/load/light_passing.h"
 #include "shared_layout.h"
 #include "shared_suns.h"
 

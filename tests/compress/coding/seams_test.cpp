@@ -3,7 +3,7 @@
 #include "prt/compress/compress.h"
 #include "prt/core/error.h"
 #include "prt/core/error_measures.h"
-#include "runtime/scene/mesh_edges.h"
+#include "runtime/load/mesh_edges.h"
 
 #include <gtest/gtest.h>
 

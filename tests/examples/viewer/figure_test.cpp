@@ -6,6 +6,7 @@
 #include "pictures/joined_scene.h"
 #include "script/script.h"
 
+#include "bake/gltf/encode_glb.h"
 #include "prt/bake/bake.h"
 #include "prt/bake/volume_bake.h"
 #include "prt/compress/compress.h"
@@ -13,7 +14,6 @@
 #include "prt/core/error.h"
 #include "prt/gl/gl_context.h"
 #include "prt/gltf/transfer_gltf.h"
-#include "runtime/scene/gltf/encode_glb.h"
 #include "support/glb_file.h"
 #include "support/scene_builder.h"
 #include "support/temporary_folder.h"

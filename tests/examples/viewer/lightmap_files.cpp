@@ -74,10 +74,10 @@ void LightmapFiles::write_shipped(int size, const std::filesystem::path& path) c
         .clusters = 24, .coding = prt::preset_u64(), .predictors = prt::PredictorChoice::none};
     const std::vector<prt::Edge> edges =
         prt::lightmap_edges(lightmap.layout, lightmap.texels, lightmap.seams);
-    prt::write_lightmap(
+    prt::write_encoded_lightmap(
         document, scene,
-        prt::scatter_to_maps(
-            lightmap, prt::compress(lightmap.baked.transfer, {lightmap.areas, edges}, options).transfer));
+        prt::encoded_lightmap(prt::scatter_to_maps(
+            lightmap, prt::compress(lightmap.baked.transfer, {lightmap.areas, edges}, options).transfer)));
     prt::save_glb(document, path);
 }
 

@@ -3,7 +3,7 @@
 #include "prt/core/error_measures.h"
 
 #include "prt/core/error.h"
-#include "runtime/scene/mesh_edges.h"
+#include "runtime/load/mesh_edges.h"
 #include "support/scene_builder.h"
 
 #include <gtest/gtest.h>

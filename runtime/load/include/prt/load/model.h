@@ -103,9 +103,9 @@ struct Model {
 };
 
 /// Reads a .glb file. Throws `Error`, with the path, if the file cannot be read, is damaged or too large, is
-/// not a .glb, has buffers in other files or Draco compression, requires an unsupported extension, or contains
-/// transfer of another version of prtkit. Raw transfer (prt bake) and coarser levels of detail are ignored. A
-/// file without transfer is not an error.
+/// not a .glb, has buffers in other files or Draco compression, requires an unsupported extension, or
+/// contains transfer of another version of prtkit. Raw transfer (prt bake) and coarser levels of detail are
+/// ignored. A file without transfer is not an error.
 Model load_model(const std::filesystem::path& path);
 /// Reads a .glb file whose bytes `file` are in memory. Keeps no reference to `file`. `name`: for messages.
 /// Throws the errors of `load_model`.

@@ -67,7 +67,7 @@ struct Glass {
     TextureUse texture; ///< its red channel multiplies `factor`
 };
 
-/// Medium below a surface: KHR_materials_volume. `has_medium` of runtime/scene/light_passing.h defines when
+/// Medium below a surface: KHR_materials_volume. `has_medium` of runtime/load/light_passing.h defines when
 /// the medium has an effect.
 struct MaterialVolume {
     /// Thickness, not negative, in the mesh's frame. Only zero has a meaning: the surface is a thin sheet

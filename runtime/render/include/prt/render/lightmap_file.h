@@ -1,29 +1,26 @@
 #pragma once
 
-// Compressed lightmaps in glTF files, and the words of their texels that a game binds as textures.
+// Images with the words of compressed lightmaps, which a file contains and a game binds as textures.
 // Experimental.
 
-#include "prt/gltf/transfer_gltf.h"
+#include "prt/load/model.h"
 
 #include <glm/vec3.hpp>
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
 namespace prt {
 
-/// Writes `lightmap` as PRTKIT_lightmap into `document`, from which `scene` was extracted, and replaces
-/// existing transfer of surfaces. Meshes that several nodes share are copied per node, and primitives without
-/// normals get flat normals. Throws `Error` if the weights are not packed, if the copies need too much memory
-/// for the size of the file, or if `document` is damaged.
-void write_lightmap(GltfDocument& document, const Scene& scene, const CompressedLightmap& lightmap);
+/// Returns `lightmap` with its words encoded as PNG images, for `write_encoded_lightmap` of
+/// prt/gltf/transfer_gltf.h. Throws `Error` if the weights are not packed.
+EncodedLightmap encoded_lightmap(const CompressedLightmap& lightmap);
 
-/// Returns the compressed lightmap in `document`, from which `scene` was extracted. Returns no value if the
-/// file has no lightmap, or one with raw (uncompressed) transfer. Throws `Error` if the lightmap is damaged,
-/// has an unsupported version, or needs too much memory for the size of the file.
-std::optional<CompressedLightmap> read_compressed_lightmap(const GltfDocument& document, const Scene& scene);
+/// Returns the lightmap of a file with its words decoded. `encoded`: Model::lightmap, or the result of
+/// `read_encoded_lightmap` of prt/gltf/transfer_gltf.h. Throws `Error` if an image is damaged, or does not
+/// have the size of its map.
+CompressedLightmap decoded_lightmap(EncodedLightmap encoded);
 
 /// Returns a lightmap whose receivers are all texels of the maps, as a game loads them. `compressed`: the
 /// compressed transfer of `baked`, with the same receivers; it must have no predictors, because texels do not

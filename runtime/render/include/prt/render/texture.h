@@ -3,8 +3,8 @@
 // Textures of materials: builds mip chains for OpenGL, and filters them on the CPU like OpenGL. Experimental.
 
 #include "prt/core/glm_layout.h"
-#include "prt/load/scene.h"
 #include "prt/image/image_file.h"
+#include "prt/load/scene.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>

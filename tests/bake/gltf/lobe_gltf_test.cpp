@@ -1,0 +1,136 @@
+// Lobes in files.
+
+#include "bake/gltf/encode_glb.h"
+#include "prt/core/error.h"
+#include "prt/gltf/transfer_gltf.h"
+#include "support/glb_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+namespace prt {
+namespace lobes_of_files { // joined sources share one scope
+namespace {
+
+using test::GlbFile;
+using Json = nlohmann::ordered_json;
+
+GltfDocument parsed(const GlbFile& file) {
+    const std::string bytes = file.bytes();
+    return parse_gltf(std::as_bytes(std::span(bytes)), "memory.glb");
+}
+
+/// A triangle of two nodes, by different words.
+StoredLobes any_lobes() {
+    StoredLobes stored;
+    stored.model.order = 3;
+    stored.model.lobes = 2;
+    stored.model.profiles = {{1, 0.5f, 0.25f}, {-0.25f, 2, 0.125f}, {0, 0, 1}};
+    for (std::uint8_t i = 0; i < 12; ++i)
+        stored.model.words.push_back({static_cast<std::uint8_t>(20 * i), static_cast<std::uint8_t>(255 - i),
+                                      static_cast<std::uint8_t>(i % 3), i});
+    stored.record = {.poses = 9, .rays = 256, .bounces = 1, .seed = 7};
+    return stored;
+}
+
+GlbFile two_triangles() {
+    GlbFile file = test::triangle_file();
+    file.json["nodes"] = {{{"mesh", 0}}, {{"mesh", 0}, {"translation", {0, 0, 1}}}};
+    file.json["scenes"] = {{{"nodes", {0, 1}}}};
+    return file;
+}
+
+GlbFile with_lobes() {
+    GltfDocument document = parsed(two_triangles());
+    write_lobes(document, extract_scene(document), any_lobes());
+    return test::glb_of(encode_glb(document));
+}
+
+TEST(LobesOfFiles, RoundTrip) {
+    const GltfDocument document = parsed(with_lobes());
+    const std::optional<StoredLobes> read = read_lobes(document, extract_scene(document));
+    const StoredLobes expected = any_lobes();
+    ASSERT_TRUE(read);
+    EXPECT_EQ(read->model.words, expected.model.words);
+    EXPECT_EQ(read->model.profiles, expected.model.profiles);
+    EXPECT_EQ(read->model.order, 3);
+    EXPECT_EQ(read->model.lobes, 2u);
+    EXPECT_EQ(read->record.poses, 9);
+    EXPECT_EQ(read->record.rays, 256);
+    EXPECT_EQ(read->record.bounces, 1);
+    EXPECT_EQ(read->record.seed, 7u);
+    const GltfDocument none = parsed(two_triangles());
+    EXPECT_FALSE(read_lobes(none, extract_scene(none)));
+}
+
+/// Writes a document as a file and reads it back.
+GltfDocument read_again(const GltfDocument& document) {
+    return parse_gltf(encode_glb(document), "memory.glb");
+}
+
+TEST(LobesOfFiles, ReplaceOtherTransferAndAreRemovedForIt) {
+    GltfDocument document = parsed(with_lobes());
+    Scene scene = extract_scene(document);
+    write_transfer(document, scene, {zero_transfer(2, 1, scene.receivers()), {}});
+    document = read_again(document);
+    scene = extract_scene(document);
+    EXPECT_FALSE(read_lobes(document, scene));
+    EXPECT_TRUE(read_transfer(document, scene));
+    write_lobes(document, scene, any_lobes());
+    document = read_again(document);
+    scene = extract_scene(document);
+    EXPECT_FALSE(read_transfer(document, scene));
+    EXPECT_TRUE(read_lobes(document, scene));
+    discard_transfer(document);
+    const GlbFile left = test::glb_of(encode_glb(document));
+    EXPECT_FALSE(left.json.contains("extensionsUsed"));
+    EXPECT_FALSE(left.json["meshes"][0]["primitives"][0]["attributes"].contains("_PRT_LOBE_0"));
+}
+
+std::string error_of(const GlbFile& file) {
+    try {
+        const GltfDocument document = parsed(file);
+        read_lobes(document, extract_scene(document));
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+TEST(LobesOfFiles, DamageIsRejected) {
+    const auto damaged = [](auto damage) {
+        GlbFile file = with_lobes();
+        damage(file.json["extensions"]["PRTKIT_lobes"],
+               file.json["meshes"][0]["primitives"][0]["attributes"]);
+        return error_of(file);
+    };
+    const auto expect = [&](const std::string& says, auto damage) {
+        const std::string error = damaged(damage);
+        EXPECT_NE(error.find(says), std::string::npos) << error;
+        EXPECT_EQ(error.find('\n'), std::string::npos);
+    };
+    expect("PRTKIT_lobes has version 9", [](Json& e, Json&) { e["version"] = 9; });
+    expect("the order of the lobes", [](Json& e, Json&) { e["order"] = 5; });
+    expect("lobes", [](Json& e, Json&) { e["lobes"] = 4; });
+    expect("the number of profiles", [](Json& e, Json&) { e["profiles"]["count"] = 300; });
+    expect("the profiles of lobes", [](Json& e, Json&) { e["profiles"]["count"] = 2; });
+    expect("4711", [](Json& e, Json&) { e["profiles"]["bufferView"] = 4711; });
+    expect("memory.glb", [](Json& e, Json&) { e.erase("profiles"); });
+    expect("poses", [](Json& e, Json&) { e["bake"]["poses"] = -1; });
+    expect("mesh 0 primitive 0", [](Json&, Json& a) { a.erase("_PRT_LOBE_1"); });
+    expect("_PRT_LOBE_1 must have four unsigned bytes for each of 3 vertices",
+           [](Json&, Json& a) { a["_PRT_LOBE_1"] = a["POSITION"]; });
+}
+
+TEST(LobesOfFiles, MissingProfilesAreRejected) {
+    GlbFile file = with_lobes();
+    const std::size_t accessor = file.json["meshes"][0]["primitives"][0]["attributes"]["_PRT_LOBE_0"];
+    const std::size_t view = file.json["accessors"][accessor]["bufferView"];
+    file.binary[file.json["bufferViews"][view]["byteOffset"].get<std::size_t>() + 2] = std::byte{3};
+    EXPECT_NE(error_of(file).find("profile 3, but there are only 3"), std::string::npos) << error_of(file);
+}
+
+} // namespace
+} // namespace lobes_of_files
+} // namespace prt
