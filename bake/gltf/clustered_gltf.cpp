@@ -4,6 +4,7 @@
 
 #include "bake/gltf/make_meshes_unique.h"
 #include "bake/gltf/write_clustered_json.h"
+#include "runtime/load/predictors_json.h"
 #include "runtime/load/vertex_transfer.h"
 
 #include <cstring>
@@ -95,7 +96,13 @@ void write_clustered(GltfDocument& document, const Scene& scene, const Compresse
 }
 
 std::optional<CompressedTransfer> read_clustered(const GltfDocument& document, const Scene& scene) {
-    return named(document, [&](const GltfContents& contents) { return read_clustered(contents, scene); });
+    return named(document, [&](const GltfContents& contents) {
+        std::optional<CompressedTransfer> compressed = read_clustered(contents, scene);
+        if (compressed)
+            compressed->transfer.receivers.predictors =
+                read_coordinates(contents, scene, compressed->transfer.bases);
+        return compressed;
+    });
 }
 
 } // namespace prt

@@ -121,7 +121,7 @@ std::vector<std::uint32_t> order_by_cluster(const Scene& scene, const ClusteredR
         const auto begin = order.begin() + static_cast<std::ptrdiff_t>(vertices.first_receiver);
         std::stable_sort(
             begin, begin + static_cast<std::ptrdiff_t>(vertices.size()),
-            [&](std::uint32_t a, std::uint32_t b) { return receivers.clusters[a] < receivers.clusters[b]; });
+            [&](std::uint32_t a, std::uint32_t b) { return receivers.cluster(a) < receivers.cluster(b); });
     }
     return order;
 }
@@ -131,7 +131,8 @@ ClusteredReceivers reordered(const ClusteredReceivers& receivers, std::span<cons
     const std::size_t stride = receivers.stride(),
                       predictors = receivers.size() > 0 ? receivers.predictors.size() / receivers.size() : 0;
     for (std::size_t i = 0; i < order.size(); ++i) {
-        result.clusters[i] = receivers.clusters[order[i]];
+        if (!receivers.clusters.empty())
+            result.clusters[i] = receivers.clusters[order[i]];
         if (stride > 0)
             std::memcpy(&result.weights[i * stride], &receivers.weights[order[i] * stride], stride);
         std::copy_n(receivers.predictors.begin() + static_cast<std::ptrdiff_t>(order[i] * predictors),

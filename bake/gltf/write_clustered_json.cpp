@@ -2,10 +2,12 @@
 #include "bake/gltf/write_clustered_json.h"
 
 #include "runtime/support/bits.h"
+#include "runtime/transfer/evaluate_range.h"
 
 namespace prt {
 
 Json write_bases(GltfContents& contents, const ClusteredBases& bases) {
+    check_rows(bases);
     if (!bases.is_coded())
         return write_float_view(contents, bases.rows);
     const CodedBases& coded = bases.coded;

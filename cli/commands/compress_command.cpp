@@ -21,6 +21,7 @@
 #include "prt/bake/lightmap_bake.h"
 #include "prt/compress/compress_volume.h"
 #include "prt/compress/search.h"
+#include "prt/core/cluster_lighting.h"
 #include "prt/core/error.h"
 #include "prt/core/error_measures.h"
 #include "prt/gltf/levels.h"
@@ -367,28 +368,29 @@ Json result_json(const CompressStatistics& s, const CompressOptions& options, co
     const std::size_t receivers = transfer.receivers();
     const std::size_t uncompressed = transfer.dimension() * sizeof(float);
     const ClusteredBases& bases = written.transfer.bases;
-    return {
-        {"order", transfer.layout().order},
-        {"channels", transfer.layout().channels()},
-        {"terms", terms_figures(transfer.layout())},
-        {"receivers", receivers},
-        {"clusters", s.clusters},
-        {"components_max", bases.max_components()},
-        {"components_mean", s.mean_components},
-        {"predictors", predictors_in_words(bases)},
-        {"shader_operations", s.operations()},
-        {"jump_across_clusters", ClusterJumps(transfer, {areas, edges}, *options.metric, options.threads)
-                                     .percentile_99(written.transfer, written.transfer.receivers.clusters)},
-        {"relative_l2", relative_l2(transfer, written.transfer, areas)},
-        {"lit_rms_by_iteration", s.lit_rms_by_iteration},
-        {"bytes_bound_per_vertex", s.bytes_per_receiver},
-        {"bytes_bound_per_vertex_with_bases", s.bytes_with_bases(receivers)},
-        {"bits_used_per_vertex", s.bits_per_receiver},
-        {"bytes_uncompressed_per_vertex", uncompressed},
-        {"bytes_attributes", s.bytes_per_receiver * receivers},
-        {"bytes_bases", s.basis_bytes},
-        {"bytes_constants", constant_rows(bases) * sizeof(glm::vec4)},
-        {"bytes_uncompressed", uncompressed * receivers}};
+    return {{"order", transfer.layout().order},
+            {"channels", transfer.layout().channels()},
+            {"terms", terms_figures(transfer.layout())},
+            {"receivers", receivers},
+            {"clusters", s.clusters},
+            {"components_max", bases.max_components()},
+            {"components_mean", s.mean_components},
+            {"predictors", predictors_in_words(bases)},
+            {"shader_operations", s.operations()},
+            {"jump_across_clusters",
+             ClusterJumps(transfer, {areas, edges}, *options.metric, options.threads)
+                 .percentile_99(written.transfer, written.transfer.receivers.cluster_indices())},
+            {"relative_l2", relative_l2(transfer, written.transfer, areas)},
+            {"lit_rms_by_iteration", s.lit_rms_by_iteration},
+            {"bytes_bound_per_vertex", s.bytes_per_receiver},
+            {"bytes_bound_per_vertex_with_bases", s.bytes_with_bases(receivers)},
+            {"bits_used_per_vertex", s.bits_per_receiver},
+            {"bytes_uncompressed_per_vertex", uncompressed},
+            {"bytes_attributes", s.bytes_per_receiver * receivers},
+            {"bytes_bases", s.basis_bytes},
+            {"bytes_constants", constant_rows(bases) * sizeof(glm::vec4)},
+            {"bytes_ram", ClusterLighting(written.transfer).matrix().size_bytes()},
+            {"bytes_uncompressed", uncompressed * receivers}};
 }
 
 Json reuse_json(const VertexReuse& before, const VertexReuse& after) {
@@ -438,8 +440,8 @@ std::vector<std::string> sentences(const CompressArguments& a, bool fitted) {
         "{bytes_bound_per_vertex_with_bases:.2f} with the bases; uncompressed "
         "{bytes_uncompressed_per_vertex}");
     list.emplace_back(
-        "GPU: {bytes_attributes} bytes of attributes, {bytes_bases} of bases, {bytes_constants} "
-        "of constants per lighting; uncompressed {bytes_uncompressed}");
+        "GPU: {bytes_attributes} bytes of attributes, {bytes_constants} of constants per lighting; RAM: "
+        "{bytes_ram} of bases, which need {bytes_bases} on disk; uncompressed {bytes_uncompressed}");
     if (a.writing.reorder)
         list.emplace_back(
             "vertices transformed per triangle {vertices_transformed_per_triangle:.3f}, before "

@@ -12,6 +12,7 @@
 #include "cli/report/of_texels.h"
 #include "cli/report/transfer_words.h"
 #include "cli/report/volume_report.h"
+#include "prt/core/cluster_lighting.h"
 #include "prt/gltf/levels.h"
 
 #include <fmt/ranges.h>
@@ -109,6 +110,10 @@ void add_compressed(const CompressedTransfer& compressed, Report& report) {
                            {"predictors", predictor_names(t.bases)},
                            {"predictor_rows", t.bases.predictor_rows()},
                            {"bytes_bases", basis_bytes(t.bases)},
+                           {"bytes_gpu_vertices", t.receivers.size() * bytes_per_receiver(t)},
+                           {"bytes_gpu_constants", constant_rows(t.bases) * sizeof(glm::vec4) +
+                                                       t.bases.clusters() * sizeof(ClusterLayout)},
+                           {"bytes_ram", ClusterLighting(t).matrix().size_bytes()},
                            {"bake", bake_record_json(compressed.record)}}}});
     const std::string own = "clustered_pca/";
     report.sentences.push_back(
@@ -119,8 +124,12 @@ void add_compressed(const CompressedTransfer& compressed, Report& report) {
         "{{{0}bytes_bound_per_vertex}} bytes per vertex to bind ({{{0}bits_used_per_vertex}} bits in use)",
         own));
     add_predictors(t.bases, own, report);
-    report.sentences.push_back(fmt::format("{{{}bytes_bases}} bytes of bases, {} shader constants per frame",
+    report.sentences.push_back(fmt::format("bases: {{{0}bytes_bases}} bytes on disk, {{{0}bytes_ram}} bytes "
+                                           "of RAM in a game; {1} shader constants",
                                            own, constant_rows(t.bases)));
+    report.sentences.push_back(fmt::format("GPU: {{{0}bytes_gpu_vertices}} bytes of vertices, "
+                                           "{{{0}bytes_gpu_constants}} of constants and clusters",
+                                           own));
     report.sentences.push_back(record_sentence(own + "bake", compressed.record));
 }
 

@@ -23,7 +23,7 @@ std::vector<ClusterShare> ClusterShares::finish(const ClusteredTransfer& transfe
                                                 std::span<const float> areas) {
     double area = 0, error = 0;
     for (std::size_t p = 0; p < areas.size(); ++p) {
-        ClusterShare& share = shares_[transfer.receivers.clusters[p]];
+        ClusterShare& share = shares_[transfer.receivers.cluster(p)];
         ++share.receivers;
         share.area_share += static_cast<double>(areas[p]);
         area += static_cast<double>(areas[p]);

@@ -32,7 +32,7 @@ namespace {
 struct Candidate {
     const SceneFile& model;
     Transfer transfer; ///< decoded
-    std::optional<std::span<const std::uint16_t>> clusters;
+    std::optional<std::vector<std::uint16_t>> clusters;
 
     /// Returns exit radiance, computed as a game does.
     std::vector<glm::vec3> radiance(const Lighting& lighting, int threads) const {
@@ -43,7 +43,8 @@ struct Candidate {
 
 Candidate candidate(const SceneFile& model, const Path& path) {
     if (model.compressed)
-        return {model, decode(model.compressed->transfer), model.compressed->transfer.receivers.clusters};
+        return {model, decode(model.compressed->transfer),
+                model.compressed->transfer.receivers.cluster_indices()};
     if (model.baked)
         return {model, model.baked->transfer, std::nullopt};
     throw Error(path.string() + ": contains no transfer; run prt bake and prt compress first");

@@ -222,11 +222,11 @@ ClusteredTransfer encode(const Frame& frame, const CodedBases& coded_frame, cons
     for (std::size_t at = 0; at < receivers.predictors.size(); ++at)
         receivers.predictors[at] = predictors.value(at / predictors.count(), at % predictors.count());
     receivers.format = encoding.format;
-    receivers.clusters.assign(codes.clusters.begin(), codes.clusters.end());
     if (encoding.format == WeightFormat::packed) {
         pack(clusters, codes, encoding, result);
         return result;
     }
+    receivers.clusters.assign(codes.clusters.begin(), codes.clusters.end());
     receivers.components = (result.bases.max_components() + 3) / 4 * 4;
     const std::size_t stride = receivers.stride();
     receivers.weights.assign(codes.clusters.size() * stride, std::byte{0});

@@ -237,7 +237,7 @@ ClusteredTransfer code(const Task& task, const ReceiverSurface& surface, FoundCl
 
 double mean_components_of(const ClusteredTransfer& transfer) {
     double sum = 0;
-    for (const std::uint16_t k : transfer.receivers.clusters)
+    for (const std::uint16_t k : transfer.receivers.cluster_indices())
         sum += transfer.bases.components[k];
     return sum / static_cast<double>(transfer.receivers.size());
 }

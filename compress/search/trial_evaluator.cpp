@@ -31,7 +31,7 @@ Score TrialEvaluator::operator()(const CompressResult& result) const {
             score.worst_lit_rms = std::max(score.worst_lit_rms, lit_rms_over_rotations(moments, sky).worst);
     }
     if (jumps_)
-        score.jump = jumps_->percentile_99(decoded, result.transfer.receivers.clusters);
+        score.jump = jumps_->percentile_99(decoded, result.transfer.receivers.cluster_indices());
     return score;
 }
 

@@ -88,7 +88,7 @@ std::span<const std::uint16_t> Trials::start_for(int clusters) const {
             start = of_receivers;
         }
     };
-    consider(best_, result_.result.transfer.receivers.clusters);
+    consider(best_, best_clusters_);
     consider(last_, last_clusters_);
     return start;
 }
@@ -133,7 +133,7 @@ bool Trials::is_better(const SearchTrial& trial) const {
 }
 
 void Trials::keep_if_better(CompressResult&& result, const SearchTrial& trial, const PayloadConfig& config) {
-    std::vector<std::uint16_t>& clusters = result.transfer.receivers.clusters;
+    std::vector<std::uint16_t> clusters = result.transfer.receivers.cluster_indices();
     if (!is_better(trial)) {
         last_ = {trial, config};
         last_clusters_ = std::move(clusters);
@@ -141,9 +141,10 @@ void Trials::keep_if_better(CompressResult&& result, const SearchTrial& trial, c
     }
     if (best_) {
         last_ = best_;
-        last_clusters_ = std::move(result_.result.transfer.receivers.clusters);
+        last_clusters_ = std::move(best_clusters_);
     }
     best_ = {trial, config};
+    best_clusters_ = std::move(clusters);
     result_.result = std::move(result);
 }
 

@@ -78,7 +78,7 @@ private:
     double bytes_per_cluster_;
     std::map<std::pair<int, PayloadConfig>, SearchTrial> tried_;
     std::optional<KeptTrial> last_; ///< empty if it is the best
-    std::vector<std::uint16_t> last_clusters_;
+    std::vector<std::uint16_t> last_clusters_, best_clusters_;
     std::optional<KeptTrial> best_;
     SearchResult result_;
 };

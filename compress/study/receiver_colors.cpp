@@ -28,7 +28,7 @@ glm::vec3 label_color(std::size_t label) {
 
 std::vector<glm::vec3> cluster_colors(const ClusteredTransfer& transfer) {
     std::vector<glm::vec3> colors;
-    for (const std::uint16_t cluster : transfer.receivers.clusters)
+    for (const std::uint16_t cluster : transfer.receivers.cluster_indices())
         colors.push_back(label_color(cluster));
     return colors;
 }
@@ -36,7 +36,7 @@ std::vector<glm::vec3> cluster_colors(const ClusteredTransfer& transfer) {
 std::vector<glm::vec3> component_colors(const ClusteredTransfer& transfer) {
     const double most = std::max(1, transfer.bases.max_components());
     std::vector<glm::vec3> colors;
-    for (const std::uint16_t cluster : transfer.receivers.clusters)
+    for (const std::uint16_t cluster : transfer.receivers.cluster_indices())
         colors.push_back(heat_color(transfer.bases.components[cluster] / most));
     return colors;
 }

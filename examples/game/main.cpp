@@ -308,13 +308,14 @@ void draw(GLuint program, const std::vector<Mesh>& meshes, const std::vector<glm
     }
 }
 
-void play(const World& world, int frames) {
+void play(World& world, int frames) {
     const GLuint screen = make_screen(), shadow_map = make_shadow_map();
     const Programs programs = make_programs(world.transfer);
     set_camera(programs.picture, world);
     const std::vector<Mesh> meshes = upload_meshes(world);
     std::vector<glm::vec4> constants = make_tables(world.transfer);
     const prt::ClusterLighting relighter(world.transfer);
+    prt::free_rows(world.transfer);
     std::vector<glm::vec3> rotated(world.sky.coefficients.size());
     for (int frame = 0; frame < frames; ++frame) {
         const double angle = glm::two_pi<double>() * (frame + 1) / frames;
@@ -352,7 +353,7 @@ int main(int argc, char** argv) {
         return 2;
     }
     try {
-        const World world = load(argv[1], argv[2]);
+        World world = load(argv[1], argv[2]);
         const auto context = prt::GlContext::create(prt::GlDevice::any);
         if (!context)
             throw std::runtime_error("OpenGL 4.5 is not available");

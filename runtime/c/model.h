@@ -7,6 +7,7 @@
 #include "prt/load/model.h"
 #include "runtime/c/boundary.h"
 
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,10 +24,14 @@ struct prt_shared_instances {
 
 struct prt_model {
     prt::Scene scene;
-    prt::ClusteredTransfer transfer;
+    mutable prt::ClusteredTransfer transfer; ///< `transfer_for_cpu` adds coordinates
     prt::ClusterLighting relighter;
     std::vector<prt::ClusterLayout> layouts;
     std::optional<prt_shared_instances> instances = {};
+    mutable std::once_flag has_coordinates = {};
+
+    /// Returns `transfer` with the coordinates of predictors, which the first call computes.
+    const prt::ClusteredTransfer& transfer_for_cpu() const;
 };
 
 namespace prt::c {

@@ -3,6 +3,7 @@
 #include "runtime/c/model.h"
 
 #include "prt/shader/shader_source.h"
+#include "runtime/load/predictors.h"
 #include "runtime/support/counted.h"
 
 #include <glm/gtc/type_ptr.hpp>
@@ -12,6 +13,12 @@
 #include <cstring>
 #include <span>
 #include <string>
+
+const prt::ClusteredTransfer& prt_model::transfer_for_cpu() const {
+    std::call_once(has_coordinates,
+                   [&] { transfer.receivers.predictors = prt::checked_coordinates(scene, transfer.bases); });
+    return transfer;
+}
 
 prt::ConstantSource prt::c::source_of(int constants) {
     if (constants < PRT_CONSTANTS_IN_BUFFER || constants > PRT_CONSTANTS_IN_TEXTURE)
@@ -35,6 +42,7 @@ prt_model* make_model(prt::Model model, const std::string& name) {
     prt::ClusteredTransfer& transfer = model.vertices->transfer;
     prt::ClusterLighting relighter(transfer);
     auto layouts = prt::cluster_layouts(transfer.bases);
+    prt::free_rows(transfer);
     return new prt_model{std::move(model.scene), std::move(transfer), std::move(relighter),
                          std::move(layouts), std::move(instances)};
 }
@@ -78,7 +86,7 @@ prt_status prt_model_get_info(const prt_model* model, prt_model_info* out, prt_m
         out->format = receivers.format == prt::WeightFormat::packed ? PRT_PACKED : PRT_FLOAT32;
         out->stride = receivers.stride();
         out->weights = receivers.weights.data();
-        out->cluster_of = receivers.clusters.data();
+        out->cluster_of = receivers.clusters.empty() ? nullptr : receivers.clusters.data();
         out->cluster_table = reinterpret_cast<const std::uint32_t*>(model->layouts.data());
         out->meshes = model->scene.primitives.size();
     });
@@ -163,7 +171,7 @@ prt_status prt_model_evaluate(const prt_model* model, const float* constants, fl
         check_pointers(model, constants, radiance);
         if (!within(kMaxConstant, constants, 4 * model->relighter.rows()))
             throw Error("constants must be finite and at most 1e30");
-        prt::evaluate(model->transfer,
+        prt::evaluate(model->transfer_for_cpu(),
                       {reinterpret_cast<const glm::vec4*>(constants), model->relighter.rows()},
                       {colors(radiance), model->transfer.receivers.size()});
     });

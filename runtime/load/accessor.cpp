@@ -95,6 +95,21 @@ void check_components(const GltfAccessor& accessor, int components, const std::s
                     std::to_string(components) + " are required");
 }
 
+/// Returns the tightly packed elements of type `Stored`; an empty list if they have another layout.
+template <class Stored>
+std::span<const Stored> in_place(const GltfModel& model, int index, int components, int component_type) {
+    check_accessor(model, index);
+    const GltfAccessor& accessor = get_accessor(model, index);
+    if (accessor.componentType != component_type || accessor.components != components ||
+        accessor.bufferView < 0 || accessor.sparse || accessor.count == 0)
+        return {};
+    const StridedElements elements = elements_of(model, accessor);
+    const std::byte* first = elements.view.data() + elements.offset;
+    if (elements.stride != elements.size || reinterpret_cast<std::uintptr_t>(first) % alignof(Stored) != 0)
+        return {};
+    return {reinterpret_cast<const Stored*>(first), accessor.count * static_cast<std::size_t>(components)};
+}
+
 template <class Stored>
 float normalised(Stored value, bool is_normalised) {
     if constexpr (std::is_same_v<Stored, float>)
@@ -160,9 +175,19 @@ std::vector<std::byte> read_elements(const GltfModel& model, int index) {
     return elements;
 }
 
+std::span<const float> floats_in_place(const GltfModel& model, int index, int components) {
+    return in_place<float>(model, index, components, kFloat);
+}
+
+std::span<const std::uint32_t> integers_in_place(const GltfModel& model, int index, int components) {
+    return in_place<std::uint32_t>(model, index, components, kUnsignedInt);
+}
+
 std::vector<float> read_floats(const GltfModel& model, int index, int components) {
     const GltfAccessor& accessor = get_accessor(model, index);
     check_components(accessor, components, accessor_name(index));
+    if (const std::span<const float> plain = floats_in_place(model, index, components); !plain.empty())
+        return {plain.begin(), plain.end()};
     const std::vector<std::byte> elements = read_elements(model, index);
     std::vector<float> values(accessor.count * static_cast<std::size_t>(components));
     with_component_type(accessor.componentType, [&](auto type) {

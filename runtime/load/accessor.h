@@ -24,6 +24,12 @@ std::size_t check_accessor(const GltfModel& model, int accessor);
 /// accessor's index if it exceeds its buffer view or buffer.
 std::vector<std::byte> read_elements(const GltfModel& model, int accessor);
 
+/// Returns the elements of an accessor where they are in its buffer, if they are tightly packed floats
+/// (unsigned integers of 32 bits) with `components` components; otherwise an empty list. Throws the errors of
+/// `read_elements`.
+std::span<const float> floats_in_place(const GltfModel& model, int accessor, int components);
+std::span<const std::uint32_t> integers_in_place(const GltfModel& model, int accessor, int components);
+
 /// Returns elements converted to float, normalised integers to [0, 1] or [-1, 1]; [count][components]. Throws
 /// `Error` unless the accessor has `components` components.
 std::vector<float> read_floats(const GltfModel& model, int accessor, int components);

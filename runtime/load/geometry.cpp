@@ -29,6 +29,11 @@ namespace {
 
 template <class Vector>
 std::vector<Vector> read_vectors(const GltfModel& model, int accessor) {
+    if (const std::span<const float> plain = floats_in_place(model, accessor, Vector::length());
+        !plain.empty()) {
+        const auto* first = reinterpret_cast<const Vector*>(plain.data());
+        return {first, first + plain.size() / static_cast<std::size_t>(Vector::length())};
+    }
     const std::vector<float> floats = read_floats(model, accessor, Vector::length());
     std::vector<Vector> vectors(floats.size() / static_cast<std::size_t>(Vector::length()));
     if (!vectors.empty())
@@ -273,14 +278,21 @@ private:
         points.reserve(vertices.size());
         if (keep_ == Keep::moving)
             moving.positions = vertices.positions, moving.normals = vertices.normals;
-        for (std::size_t i = 0; i < vertices.size(); ++i) {
-            const glm::dmat4 matrix =
-                node.skin < 0 ? node_transform.world : vertex_matrix(palette, moving, i);
-            points.emplace_back(matrix * glm::dvec4(vertices.positions[i], 1));
-            check_position(points[i], i);
-            if (!vertices.normals.empty())
-                vertices.normals[i] = transformed_normal(vertices.normals[i], matrix);
+        if (node.skin < 0) {
+            for (const glm::vec3& position : vertices.positions)
+                points.emplace_back(node_transform.world * glm::dvec4(position, 1));
+            std::ranges::transform(vertices.normals, vertices.normals.begin(),
+                                   NormalTransform(node_transform.world));
+        } else {
+            for (std::size_t i = 0; i < vertices.size(); ++i) {
+                const glm::dmat4 matrix = vertex_matrix(palette, moving, i);
+                points.emplace_back(matrix * glm::dvec4(vertices.positions[i], 1));
+                if (!vertices.normals.empty())
+                    vertices.normals[i] = transformed_normal(vertices.normals[i], matrix);
+            }
         }
+        for (std::size_t i = 0; i < points.size(); ++i)
+            check_position(points[i], i);
         if (keep_ == Keep::moving)
             geometry_.moving.push_back(std::move(moving));
         positions_.push_back(std::move(points));
@@ -290,12 +302,19 @@ private:
     /// Converts positions to the world frame, relative to the center of the bounding box of the first
     /// `finest` primitives. They are rounded to float only here.
     void place_about_middle(std::size_t finest) {
-        glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
-        for (const Primitive& primitive : std::span(scene_.primitives).first(finest))
+        std::vector<std::vector<bool>> drawn(positions_.size()); // [vertex arrays][vertices]
+        for (const Primitive& primitive : std::span(scene_.primitives).first(finest)) {
+            std::vector<bool>& vertices = drawn[primitive.vertices];
+            vertices.resize(positions_[primitive.vertices].size());
             for (const glm::uvec3& t : primitive.triangles)
-                for (int corner = 0; corner < 3; ++corner) {
-                    low = glm::min(low, positions_[primitive.vertices][t[corner]]);
-                    high = glm::max(high, positions_[primitive.vertices][t[corner]]);
+                vertices[t.x] = vertices[t.y] = vertices[t.z] = true;
+        }
+        glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
+        for (std::size_t array = 0; array < drawn.size(); ++array)
+            for (std::size_t v = 0; v < drawn[array].size(); ++v)
+                if (drawn[array][v]) {
+                    low = glm::min(low, positions_[array][v]);
+                    high = glm::max(high, positions_[array][v]);
                 }
         scene_.origin = low + 0.5 * (high - low);
         for (std::size_t array = 0; array < positions_.size(); ++array)

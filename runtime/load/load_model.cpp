@@ -16,6 +16,7 @@
 #include "runtime/load/lobe_transfer.h"
 #include "runtime/load/meshopt_views.h"
 #include "runtime/load/occluder_nodes.h"
+#include "runtime/load/predictors.h"
 #include "runtime/load/probe_transfer.h"
 #include "runtime/load/shared_instances.h"
 #include "runtime/load/supported_extensions.h"
@@ -125,6 +126,12 @@ Model parse_model(std::span<const std::byte> file, const std::filesystem::path& 
     } catch (const std::exception& error) { // errors of prtkit, the standard library and the JSON library
         throw Error(name.string() + ": " + in_plain_words(error));
     }
+}
+
+void add_coordinates(Model& model) {
+    if (model.vertices)
+        model.vertices->transfer.receivers.predictors =
+            checked_coordinates(model.scene, model.vertices->transfer.bases);
 }
 
 Model load_model(const std::filesystem::path& path) {

@@ -15,4 +15,11 @@ namespace prt {
 /// VertexArray::positions minus Predictor::origin. The coordinates are not multiplied by Predictor::scale.
 std::vector<float> predictor_coordinates(const Scene& scene, std::span<const Predictor> predictors);
 
+/// Maximum magnitude of a float weight, and of a coordinate times its scale; corresponds to `kMaxTransfer`.
+inline constexpr float kMaxFloatWeight = 1e9f;
+
+/// Returns the predictor coordinates of each receiver of `scene` for `bases`; empty without predictors.
+/// Throws `Error` if a coordinate times its scale exceeds `kMaxFloatWeight`.
+std::vector<float> checked_coordinates(const Scene& scene, const ClusteredBases& bases);
+
 } // namespace prt

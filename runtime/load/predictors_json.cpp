@@ -81,12 +81,7 @@ std::vector<float> read_coordinates(const GltfData& contents, const Scene& scene
     check_allowed(static_cast<double>(scene.receivers()) * static_cast<double>(bases.predictor_rows()) *
                       sizeof(float),
                   contents.file_bytes, "the coordinates of its predictors");
-    std::vector<float> coordinates = predictor_coordinates(scene, bases.predictors);
-    for (std::size_t i = 0; i < coordinates.size(); ++i)
-        if (!(std::abs(coordinates[i] * bases.predictor_scale(i % bases.predictor_rows())) <=
-              kMaxFloatWeight))
-            throw Error("a vertex is farther from the origin of a predictor than its scale allows");
-    return coordinates;
+    return checked_coordinates(scene, bases);
 }
 
 } // namespace prt

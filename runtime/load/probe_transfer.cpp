@@ -73,11 +73,10 @@ CompressedVolume read_words(const GltfData& contents, const Scene& scene, const 
     read_packing(contents, extension.at("packing"), transfer);
     ClusteredReceivers& receivers = transfer.receivers;
     receivers.weights = bytes_of(contents, extension.at("words"));
-    receivers.clusters.resize(probes);
     if (receivers.weights.size() != probes * receivers.stride())
         throw Error("the size of the packed weights of the volume does not match its " +
                     counted(probes, "probe"));
-    unpack_clusters(transfer.bases.clusters(), 0, probes, "probe", receivers);
+    check_clusters(transfer.bases.clusters(), 0, probes, "probe", receivers);
     return volume;
 }
 

@@ -8,6 +8,7 @@
 #include "prt/load/scene.h"
 #include "runtime/load/extensions.h"
 #include "runtime/load/gltf_data.h"
+#include "runtime/load/predictors.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -48,9 +49,6 @@ private:
 
 /// Returns `value`, stored in the file as `name`, as an integer in `least`..`most`. Throws `Error` otherwise.
 int whole_number(const Json& value, const std::string& name, int least, int most);
-
-/// Maximum magnitude of a float weight, corresponding to `kMaxTransfer` for transfer.
-inline constexpr float kMaxFloatWeight = 1e9f;
 
 /// Throws `Error` unless all values are finite with magnitudes of at most `largest`.
 void check_magnitudes(std::span<const float> values, float largest, const std::string& what);

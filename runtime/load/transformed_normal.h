@@ -16,10 +16,24 @@ inline glm::dmat3 cofactors(const glm::dmat3& m) {
     return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
 }
 
+/// Transforms normals by one matrix.
+class NormalTransform {
+public:
+    explicit NormalTransform(const glm::dmat4& matrix)
+        : cofactors_(cofactors(glm::dmat3(matrix))),
+          side_(glm::determinant(glm::dmat3(matrix)) < 0 ? -1 : 1) {}
+
+    glm::vec3 operator()(const glm::vec3& normal) const {
+        return unit_or_zero(side_ * (cofactors_ * glm::dvec3(normal)));
+    }
+
+private:
+    glm::dmat3 cofactors_;
+    double side_;
+};
+
 inline glm::vec3 transformed_normal(const glm::vec3& normal, const glm::dmat4& matrix) {
-    const glm::dmat3 linear(matrix);
-    const double side = glm::determinant(linear) < 0 ? -1 : 1;
-    return unit_or_zero(side * (cofactors(linear) * glm::dvec3(normal)));
+    return NormalTransform(matrix)(normal);
 }
 
 /// Returns the normal that `transformed_normal` maps to `normal`.

@@ -6,9 +6,20 @@
 #include "runtime/support/counted.h"
 
 #include <numeric>
+#include <span>
 #include <string>
 
 namespace prt {
+namespace {
+
+void check_indices(std::span<const std::uint32_t> indices, std::size_t vertices) {
+    for (const std::uint32_t index : indices)
+        if (index >= vertices)
+            throw Error("index " + std::to_string(index) + " is out of range: there are " +
+                        counted(vertices, "vertex", "vertices"));
+}
+
+} // namespace
 
 bool is_triangle_mode(int mode) {
     return mode == kTriangles || mode == kTriangleStrip || mode == kTriangleFan;
@@ -16,6 +27,13 @@ bool is_triangle_mode(int mode) {
 
 std::vector<glm::uvec3> read_triangles(const GltfModel& model, const GltfPrimitive& primitive,
                                        std::size_t vertices) {
+    const bool listed = primitive.mode != kTriangleStrip && primitive.mode != kTriangleFan;
+    if (listed && primitive.indices >= 0)
+        if (const auto plain = integers_in_place(model, primitive.indices, 1); !plain.empty()) {
+            check_indices(plain, vertices);
+            const auto* first = reinterpret_cast<const glm::uvec3*>(plain.data());
+            return {first, first + plain.size() / 3};
+        }
     std::vector<std::uint32_t> indices;
     if (primitive.indices >= 0) {
         indices = read_unsigned(model, primitive.indices, 1);
@@ -23,13 +41,9 @@ std::vector<glm::uvec3> read_triangles(const GltfModel& model, const GltfPrimiti
         indices.resize(vertices);
         std::iota(indices.begin(), indices.end(), 0u);
     }
-    for (const std::uint32_t index : indices)
-        if (index >= vertices)
-            throw Error("index " + std::to_string(index) + " is out of range: there are " +
-                        counted(vertices, "vertex", "vertices"));
+    check_indices(indices, vertices);
 
     std::vector<glm::uvec3> triangles;
-    const bool listed = primitive.mode != kTriangleStrip && primitive.mode != kTriangleFan;
     triangles.reserve(listed ? indices.size() / 3 : indices.size());
     if (primitive.mode == kTriangleStrip) {
         for (std::size_t i = 0; i + 2 < indices.size(); ++i)

@@ -85,11 +85,11 @@ void read_weights(const GltfData& contents, const Json& attributes, std::size_t 
     }
 }
 
-/// Allocates the weights of all receivers.
-void make_room(const GltfData& contents, ClusteredReceivers& receivers) {
-    check_allowed(static_cast<double>(receivers.size()) * static_cast<double>(receivers.stride()),
-                  contents.file_bytes, "its weights");
-    receivers.weights.resize(receivers.size() * receivers.stride());
+/// Allocates the weights of `count` receivers.
+void make_room(const GltfData& contents, std::size_t count, ClusteredReceivers& receivers) {
+    check_allowed(static_cast<double>(count) * static_cast<double>(receivers.stride()), contents.file_bytes,
+                  "its weights");
+    receivers.weights.resize(count * receivers.stride());
 }
 
 /// Returns the transfer attributes of prtkit in `attributes`, sorted by name.
@@ -101,9 +101,9 @@ Json own_attributes(const Json& attributes) {
     return own;
 }
 
-/// Reads clusters and weights of one primitive.
+/// Reads clusters and weights of one primitive. `count`: number of receivers of all primitives.
 void read_receivers(const GltfData& contents, const Json& attributes, const VertexArray& vertices,
-                    ClusteredTransfer& transfer) {
+                    std::size_t count, ClusteredTransfer& transfer) {
     ClusteredReceivers& receivers = transfer.receivers;
     const std::size_t clusters = transfer.bases.clusters();
     const bool packed = receivers.words > 0;
@@ -111,10 +111,10 @@ void read_receivers(const GltfData& contents, const Json& attributes, const Vert
         read_clusters(contents, attributes, clusters,
                       std::span(receivers.clusters).subspan(vertices.first_receiver, vertices.size()));
     if (receivers.weights.empty())
-        make_room(contents, receivers);
+        make_room(contents, count, receivers);
     read_weights(contents, attributes, vertices.first_receiver, vertices.size(), receivers);
     if (packed)
-        unpack_clusters(clusters, vertices.first_receiver, vertices.size(), "vertex", receivers);
+        check_clusters(clusters, vertices.first_receiver, vertices.size(), "vertex", receivers);
 }
 
 } // namespace
@@ -150,15 +150,15 @@ std::optional<CompressedTransfer> read_clustered(const GltfData& contents, const
         read_packing(contents, extension->at("packing"), compressed.transfer);
     else
         receivers.components = (bases.max_components() + 3) / 4 * 4;
-    receivers.clusters.resize(scene.receivers());
-    receivers.predictors = read_coordinates(contents, scene, bases);
+    if (!packed)
+        receivers.clusters.resize(scene.receivers());
     TransferOfVertices read;
     for (const Primitive& primitive : scene.primitives) {
         const Json& attributes = primitive_json(contents, primitive).at("attributes");
         if (!read.is_new(primitive, own_attributes(attributes)))
             continue;
         try {
-            read_receivers(contents, attributes, scene.vertex_arrays[primitive.vertices],
+            read_receivers(contents, attributes, scene.vertex_arrays[primitive.vertices], scene.receivers(),
                            compressed.transfer);
         } catch (const std::exception& error) {
             throw Error(primitive_name(primitive) + ": " + in_plain_words(error));

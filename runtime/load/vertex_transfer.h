@@ -18,8 +18,8 @@ std::size_t group_bytes(WeightFormat format);
 /// Returns the number of attributes _PRT_WEIGHTS_.
 std::size_t group_count(const ClusteredReceivers& receivers);
 
-/// Returns the compressed transfer of the vertices of `scene`; empty if the file has none. Throws `Error` if
-/// it is damaged, too large or of another version.
+/// Returns the compressed transfer of the vertices of `scene`, without the coordinates of predictors; empty
+/// if the file has none. Throws `Error` if it is damaged, too large or of another version.
 std::optional<CompressedTransfer> read_clustered(const GltfData& data, const Scene& scene);
 
 } // namespace prt

@@ -75,7 +75,6 @@ CompressedLightmap decoded_lightmap(EncodedLightmap encoded) {
     CompressedLightmap& lightmap = encoded.lightmap;
     ClusteredReceivers& receivers = lightmap.compressed.transfer.receivers;
     const std::vector<std::size_t> first = lightmap.layout.first_texels();
-    receivers.clusters.resize(first.back());
     receivers.weights.resize(first.back() * receivers.stride());
     std::size_t image = 0;
     for (std::size_t m = 0; m < lightmap.layout.maps.size(); ++m)
@@ -86,7 +85,7 @@ CompressedLightmap decoded_lightmap(EncodedLightmap encoded) {
                 throw Error("the image of word " + std::to_string(w) + " of map " + std::to_string(m) + " " +
                             error.what());
             }
-    unpack_clusters(lightmap.compressed.transfer.bases.clusters(), 0, receivers.size(), "texel", receivers);
+    check_clusters(lightmap.compressed.transfer.bases.clusters(), 0, receivers.size(), "texel", receivers);
     return std::move(lightmap);
 }
 
@@ -95,7 +94,6 @@ namespace {
 /// Copies receiver `from` of `source` to receiver `to` of `target`.
 void copy_receiver(const ClusteredReceivers& source, std::size_t from, ClusteredReceivers& target,
                    std::size_t to) {
-    target.clusters[to] = source.clusters[from];
     std::memcpy(&target.weights[to * target.stride()], &source.weights[from * source.stride()],
                 source.stride());
 }
@@ -105,7 +103,7 @@ ClusteredReceivers room_for(std::size_t count, const ClusteredReceivers& like) {
                                  .components = like.components,
                                  .cluster_bits = like.cluster_bits,
                                  .words = like.words,
-                                 .clusters = std::vector<std::uint16_t>(count),
+                                 .clusters = {},
                                  .weights = std::vector<std::byte>(count * like.stride()),
                                  .predictors = {}};
     return receivers;

@@ -2,6 +2,7 @@
 #include "prt/core/cluster_lighting.h"
 
 #include "runtime/support/vector_lanes.h"
+#include "runtime/transfer/evaluate_range.h"
 
 #include <algorithm>
 #include <array>
@@ -104,6 +105,7 @@ ClusterLighting::ClusterLighting(const ClusteredTransfer& transfer)
     : layout_(transfer.bases.layout.of_one_output()),
       rows_(constant_rows(transfer.bases) * transfer.bases.layout.outputs) {
     check_layout(transfer.bases.layout);
+    check_rows(transfer.bases);
     const std::vector<float> rows = rows_of_stored(transfer); // all outputs, one after another
     const std::size_t dimension = layout_.dimension();
     matrix_.assign((rows_ + kLanes - 1) / kLanes * kLanes * dimension, 0.0f);
@@ -133,6 +135,11 @@ void ClusterLighting::update(const LightingView& lighting, std::span<glm::vec4> 
     }
     update_rows(layout_, matrix_.data(), separate.data(),
                 {first / kLanes, (std::min(last, rows_) + kLanes - 1) / kLanes}, rows_, constants.data());
+}
+
+void free_rows(ClusteredTransfer& transfer) {
+    transfer.bases.rows = {};
+    transfer.bases.coded = {};
 }
 
 void blend_constants(std::span<const glm::vec4> a, std::span<const glm::vec4> b, float share,

@@ -12,6 +12,24 @@ std::size_t ClusteredReceivers::stride() const {
     return 4 * static_cast<std::size_t>(format == WeightFormat::packed ? words : components);
 }
 
+std::size_t ClusteredReceivers::size() const {
+    return format == WeightFormat::packed && words > 0 ? weights.size() / stride() : clusters.size();
+}
+
+std::size_t ClusteredReceivers::cluster(std::size_t receiver) const {
+    return format == WeightFormat::packed ? cluster_in(weights.data() + receiver * stride(), cluster_bits)
+                                          : clusters[receiver];
+}
+
+std::vector<std::uint16_t> ClusteredReceivers::cluster_indices() const {
+    if (format != WeightFormat::packed)
+        return clusters;
+    std::vector<std::uint16_t> indices(size());
+    for (std::size_t p = 0; p < indices.size(); ++p)
+        indices[p] = static_cast<std::uint16_t>(cluster(p));
+    return indices;
+}
+
 std::size_t bytes_per_receiver(const ClusteredTransfer& transfer) {
     const ClusteredReceivers& receivers = transfer.receivers;
     if (receivers.format == WeightFormat::packed)

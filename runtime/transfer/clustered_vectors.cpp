@@ -13,7 +13,7 @@ void ClusteredVectors::read(std::size_t first, std::span<float> to) const {
     const std::size_t dimension = dimension_, predictors = bases.predictor_rows();
     std::vector<float> weights(max_components_);
     for (std::size_t p = first; !to.empty(); ++p, to = to.subspan(dimension)) {
-        const std::size_t k = transfer_.receivers.clusters[p];
+        const std::size_t k = transfer_.receivers.cluster(p);
         const ClusterLayout& layout = layouts_[k];
         decode_weights(transfer_, layouts_, p, weights);
         const float* row = &bases.rows[layout.first_row * dimension];

@@ -1,5 +1,6 @@
 // Computes exit radiance of every receiver from the constants, in SIMD registers (docs/math.md, eq. 29).
 #include "prt/core/clustered_transfer.h"
+#include "prt/core/error.h"
 #include "runtime/support/parallel.h"
 #include "runtime/support/vector_lanes.h"
 #include "runtime/transfer/evaluate_range.h"
@@ -49,15 +50,23 @@ template <WeightFormat Format>
 }
 
 template <WeightFormat Format>
+[[gnu::always_inline]] inline std::size_t cluster_of(const ClusteredReceivers& receivers,
+                                                     const std::byte* weights, std::size_t receiver) {
+    if constexpr (Format == WeightFormat::packed)
+        return cluster_in(weights, receivers.cluster_bits);
+    else
+        return receivers.clusters[receiver];
+}
+
+template <WeightFormat Format>
 [[gnu::always_inline]] inline void evaluate_format(const ClusteredReceivers& receivers,
                                                    const ClusterLayout* layouts, const glm::vec4* constants,
                                                    std::size_t begin, std::size_t end, glm::vec3* radiance) {
     const std::size_t stride = receivers.stride();
-    const std::uint16_t* clusters = receivers.clusters.data();
     const std::byte* weights = receivers.weights.data();
     const std::size_t predictors = receivers.predictors.size() / receivers.size();
     for (std::size_t p = begin; p < end; ++p) {
-        const ClusterLayout& layout = layouts[clusters[p]];
+        const ClusterLayout& layout = layouts[cluster_of<Format>(receivers, weights + p * stride, p)];
         const glm::vec4* row = constants + layout.first_row;
         const Color sum =
             known_color(row, receivers.predictors.data() + p * predictors, predictors) +
@@ -83,8 +92,8 @@ void evaluate_outputs(const ClusteredReceivers& receivers, const ClusterLayout* 
                       const glm::vec4* constants, std::size_t begin, std::size_t end, glm::vec3* radiance) {
     const std::size_t stride = receivers.stride();
     for (std::size_t p = begin; p < end; ++p) {
-        const ClusterLayout& layout = layouts[receivers.clusters[p]];
         const std::byte* const words = receivers.weights.data() + p * stride;
+        const ClusterLayout& layout = layouts[cluster_in(words, receivers.cluster_bits)];
         const glm::vec4* row = constants + layout.first_row * outputs;
         Color sums[kMaxOutputs];
         for (std::size_t o = 0; o < outputs; ++o)
@@ -105,6 +114,17 @@ void evaluate_outputs(const ClusteredReceivers& receivers, const ClusterLayout* 
 
 } // namespace
 
+void check_coordinates(const ClusteredTransfer& transfer) {
+    if (transfer.receivers.predictors.size() != transfer.receivers.size() * transfer.bases.predictor_rows())
+        throw Error("the transfer has no coordinates for its predictors; call add_coordinates after "
+                    "load_model");
+}
+
+void check_rows(const ClusteredBases& bases) {
+    if (bases.rows.size() != bases.first_rows().back() * bases.dimension())
+        throw Error("the transfer has no rows of clusters; free_rows has freed them");
+}
+
 void evaluate_range(const ClusteredReceivers& receivers, const ClusterLayout* layouts,
                     const glm::vec4* constants, std::size_t begin, std::size_t end, glm::vec3* radiance) {
     evaluate_in_lanes(receivers, layouts, constants, begin, end, radiance);
@@ -116,6 +136,7 @@ void evaluate(const ClusteredTransfer& transfer, std::span<const glm::vec4> cons
     const ClusteredReceivers& receivers = transfer.receivers;
     const std::size_t outputs = transfer.bases.layout.outputs;
     assert(radiance.size() >= receivers.size() * outputs);
+    check_coordinates(transfer);
     if (outputs > 1) {
         assert(receivers.format == WeightFormat::packed);
         parallel_for(receivers.size(), 1024, threads, [&](std::size_t begin, std::size_t end) {

@@ -51,10 +51,14 @@ ConstantRows rows_of(const ClusteredTransfer& transfer, std::size_t first, std::
     if (count == 0)
         return {};
     const std::vector<ClusterLayout> layouts = cluster_layouts(transfer.bases);
-    const auto clusters = std::span(transfer.receivers.clusters).subspan(first, count);
-    const auto [low, high] = std::ranges::minmax(clusters);
-    const auto end = high + 1u < layouts.size() ? layouts[high + 1u].first_row
-                                                : static_cast<std::uint32_t>(constant_rows(transfer.bases));
+    std::size_t low = layouts.size(), high = 0;
+    for (std::size_t p = first; p < first + count; ++p) {
+        const std::size_t cluster = transfer.receivers.cluster(p);
+        low = std::min(low, cluster);
+        high = std::max(high, cluster);
+    }
+    const auto end = high + 1 < layouts.size() ? layouts[high + 1].first_row
+                                               : static_cast<std::uint32_t>(constant_rows(transfer.bases));
     return {layouts[low].first_row, end - layouts[low].first_row};
 }
 

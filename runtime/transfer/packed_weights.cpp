@@ -12,7 +12,7 @@ namespace prt {
 void decode_weights(const ClusteredTransfer& transfer, std::span<const ClusterLayout> layouts,
                     std::size_t receiver, std::span<float> weights) {
     const ClusteredReceivers& receivers = transfer.receivers;
-    const ClusterLayout& layout = layouts[receivers.clusters[receiver]];
+    const ClusterLayout& layout = layouts[receivers.cluster(receiver)];
     const std::byte* from = receivers.weights.data() + receiver * receivers.stride();
     auto position = static_cast<std::size_t>(receivers.cluster_bits);
     for (std::size_t j = 0; j < layout.components; ++j) {
@@ -43,16 +43,12 @@ void pack_words(std::uint32_t cluster, int cluster_bits, const ClusterLayout& la
         put(values[j], width_of(layout, j));
 }
 
-void unpack_clusters(std::size_t clusters, std::size_t first, std::size_t count, const char* what,
-                     ClusteredReceivers& receivers) {
-    for (std::size_t p = first; p < first + count; ++p) {
-        const auto word = load<std::uint32_t>(receivers.weights.data() + p * receivers.stride());
-        const std::uint32_t k = word & ((1u << receivers.cluster_bits) - 1);
-        if (k >= clusters)
+void check_clusters(std::size_t clusters, std::size_t first, std::size_t count, const char* what,
+                    const ClusteredReceivers& receivers) {
+    for (std::size_t p = first; p < first + count; ++p)
+        if (const std::size_t k = receivers.cluster(p); k >= clusters)
             throw Error(std::string(what) + " " + std::to_string(p - first) + " has cluster " +
                         std::to_string(k) + ", but there are only " + std::to_string(clusters));
-        receivers.clusters[p] = static_cast<std::uint16_t>(k);
-    }
 }
 
 } // namespace prt

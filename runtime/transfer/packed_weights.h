@@ -21,6 +21,11 @@ template <class Stored>
     return 1 + static_cast<int>(layout.widths[component / 8] >> (4 * (component % 8)) & 15u);
 }
 
+/// Returns the cluster index in the first word of a receiver; 0 with 0 bits.
+[[gnu::always_inline]] inline std::uint32_t cluster_in(const std::byte* words, int cluster_bits) {
+    return load<std::uint32_t>(words) & ((1u << cluster_bits) - 1);
+}
+
 /// Returns `width` bits of `words` starting at bit `position`, width <= 16.
 [[gnu::always_inline]] inline std::uint32_t bits_at(const std::byte* words, std::size_t position, int width) {
     const std::size_t word = position / 32, shift = position % 32;

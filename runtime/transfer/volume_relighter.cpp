@@ -46,8 +46,8 @@ struct Planes {
 template <std::size_t Outputs>
 [[gnu::always_inline]] inline void light_probe(const Probes& probes, const glm::vec4* constants,
                                                std::size_t p, float* numbers) {
-    const ClusterLayout& layout = probes.clusters[probes.receivers.clusters[p]];
     const std::byte* const words = probes.receivers.weights.data() + p * probes.receivers.stride();
+    const ClusterLayout& layout = probes.clusters[cluster_in(words, probes.receivers.cluster_bits)];
     const glm::vec4* row = constants + layout.first_row * Outputs;
     Color sums[Outputs];
     for (std::size_t o = 0; o < Outputs; ++o)

@@ -141,12 +141,12 @@ ClusteredTransfer clustered(int clusters, int components, const TransferLayout& 
     t.receivers.cluster_bits = 8;
     t.receivers.words = (8 + 7 * components + 31) / 32;
     std::mt19937 random(3);
-    for (std::size_t p = 0; p < receivers; ++p)
-        t.receivers.clusters.push_back(
-            static_cast<std::uint16_t>(p / run * 97 % static_cast<std::size_t>(clusters)));
     t.receivers.weights.resize(receivers * t.receivers.stride());
     for (std::byte& b : t.receivers.weights)
         b = static_cast<std::byte>(random());
+    for (std::size_t p = 0; p < receivers; ++p)
+        t.receivers.weights[p * t.receivers.stride()] =
+            static_cast<std::byte>(p / run * 97 % static_cast<std::size_t>(clusters));
     return t;
 }
 
@@ -203,8 +203,8 @@ CompressedLightmap lightmap_of(int side) {
     std::vector<std::uint32_t> words;
     for (int i = 0; i < kSide * kSide; ++i) {
         const int x = i % kSide / side, y = i / kSide / side;
-        t.receivers.clusters.push_back(static_cast<std::uint16_t>((x * 131 + y * 71) % 256));
-        words.push_back((static_cast<std::uint32_t>(random()) & ~255u) | t.receivers.clusters.back());
+        const auto cluster = static_cast<std::uint32_t>((x * 131 + y * 71) % 256);
+        words.push_back((static_cast<std::uint32_t>(random()) & ~255u) | cluster);
         words.push_back(static_cast<std::uint32_t>(random()));
     }
     t.receivers.weights.resize(words.size() * 4);
@@ -251,11 +251,11 @@ CompressedVolume volume_of() {
                    .weights = {},
                    .predictors = {}};
     std::mt19937 random(1);
-    for (std::size_t p = 0; p < volume.visibility.size(); ++p)
-        t.receivers.clusters.push_back(static_cast<std::uint16_t>(p * 256 / volume.visibility.size()));
     t.receivers.weights.resize(16 * volume.visibility.size());
     for (std::byte& b : t.receivers.weights)
         b = static_cast<std::byte>(random());
+    for (std::size_t p = 0; p < volume.visibility.size(); ++p)
+        t.receivers.weights[16 * p] = static_cast<std::byte>(p * 256 / volume.visibility.size());
     return volume;
 }
 

@@ -1,6 +1,7 @@
 // Tests lightmaps through the program: baked, compressed, reported and drawn; and rejected input.
 
 #include "pipeline.h"
+#include "prt/gltf/transfer_gltf.h"
 #include "prt/image/image_file.h"
 #include "prt/render/lightmap_file.h"
 #include "support/glb_file.h"

@@ -248,7 +248,7 @@ TEST(Search, LimitsJumpsAcrossClusters) {
         const SearchResult found = compress_within(transfer, surface, options);
         EXPECT_TRUE(found.kept);
         return ClusterJumps(transfer, surface, *options.compress.metric)
-            .percentile_99(decode(found.result.transfer), found.result.transfer.receivers.clusters);
+            .percentile_99(decode(found.result.transfer), found.result.transfer.receivers.cluster_indices());
     };
     options.budget.max_error = 0.05;
     const double free = jump();
@@ -281,8 +281,8 @@ TEST(Search, LimitsJumpsAcrossClusters) {
             };
             std::vector<double> jumps;
             for (const Edge& edge : edges)
-                if (found.result.transfer.receivers.clusters[edge.first] !=
-                    found.result.transfer.receivers.clusters[edge.second])
+                if (found.result.transfer.receivers.cluster(edge.first) !=
+                    found.result.transfer.receivers.cluster(edge.second))
                     jumps.push_back(std::abs(contrast(edge.first) - contrast(edge.second)));
             std::ranges::sort(jumps, std::greater());
             EXPECT_LE(jumps.empty() ? 0 : jumps[jumps.size() / 100], 0.5001 * free);

@@ -30,7 +30,6 @@ CompressedTransfer some_clusters(const Scene& scene) {
         .layout = layout_of_one(1, 1), .components = {1}, .rows = {0, 1}, .bits = {7}, .coded = {}};
     transfer.receivers.format = WeightFormat::packed;
     transfer.receivers.words = 1;
-    transfer.receivers.clusters.resize(scene.receivers());
     transfer.receivers.weights.resize(4 * scene.receivers());
     for (std::size_t i = 0; i < transfer.receivers.weights.size(); i += 4)
         transfer.receivers.weights[i] = static_cast<std::byte>(i / 4 % 128);

@@ -99,7 +99,7 @@ void check_lightmap(const Scene& scene, const CompressedLightmap& lightmap) {
     const ClusteredTransfer& transfer = lightmap.compressed.transfer;
     expect(transfer.receivers.size() == lightmap.layout.texels(), "words for other texels");
     expect_finite(std::span<const float>(transfer.bases.rows), "bases of texels");
-    for (const std::uint16_t cluster : transfer.receivers.clusters)
+    for (const std::uint16_t cluster : transfer.receivers.cluster_indices())
         expect(cluster < transfer.bases.clusters(), "a texel is in no cluster");
 }
 

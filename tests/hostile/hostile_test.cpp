@@ -72,7 +72,8 @@ bool use_in_c(std::span<const std::byte> bytes) {
     return true;
 }
 
-/// Returns true if the file was read by all interfaces that support it.
+/// Returns true if the C++ interface of the tools read the file. The C interface then reads it too. It reads
+/// some files that the tools refuse, because it needs fewer data: no textures, for example.
 bool is_read(const std::string& file) {
     const std::span<const std::byte> bytes = std::as_bytes(std::span(file));
     bool read = true, of_vertices = true; // the C interface supports only vertices
@@ -82,7 +83,7 @@ bool is_read(const std::string& file) {
         fuzz::expect_plain(error.what());
         read = false;
     }
-    EXPECT_EQ(use_in_c(bytes), read && of_vertices);
+    EXPECT_TRUE(use_in_c(bytes) || !read || !of_vertices);
     return read;
 }
 

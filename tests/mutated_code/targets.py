@@ -35,7 +35,7 @@ SUITES = {
     "runtime/fit/": [Suite("runtime_tests", "Lobe*:*Suns*:*Skies*")],
     "runtime/include/": [RUNTIME, COMPRESS],
     "runtime/image/": [Suite("image_tests")],
-    "runtime/load/": [Suite("gltf_tests")],
+    "runtime/load/": [Suite("gltf_tests"), Suite("load_tests")],
     "bake/gltf/": [Suite("gltf_tests")],
     "runtime/render/": [RENDER],
     "runtime/shader/": [RENDER],

@@ -3,6 +3,7 @@
 #include "support/lightmap_model.h"
 
 #include "bake/gltf/encode_glb.h"
+#include "prt/gltf/transfer_gltf.h"
 #include "support/scene_builder.h"
 
 #include <string>

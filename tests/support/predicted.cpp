@@ -86,7 +86,7 @@ void code_bases(ClusteredBases& bases, const std::vector<float>& scales, std::mt
 
 std::vector<double> decoded_by_hand(const ClusteredTransfer& transfer, std::size_t p) {
     const ClusteredBases& bases = transfer.bases;
-    const std::size_t k = transfer.receivers.clusters[p], dimension = bases.dimension(),
+    const std::size_t k = transfer.receivers.cluster(p), dimension = bases.dimension(),
                       predictors = bases.predictor_rows();
     std::vector<float> weights(static_cast<std::size_t>(bases.max_components()));
     decode_weights(transfer, cluster_layouts(bases), p, weights);

@@ -36,7 +36,6 @@ CompressedLightmap random_lightmap(const std::vector<LightmapSize>& maps, int wo
             values.push_back(static_cast<std::uint32_t>(random()) &
                              ((1u << t.bases.bits[rows[k] - k + static_cast<std::size_t>(j)]) - 1));
         pack_words(k, kClusterBits, layouts[k], values, packed);
-        t.receivers.clusters.push_back(static_cast<std::uint16_t>(k));
         const auto* bytes = reinterpret_cast<const std::byte*>(packed.data());
         t.receivers.weights.insert(t.receivers.weights.end(), bytes, bytes + 4 * packed.size());
     }

@@ -40,7 +40,6 @@ ClusteredReceivers random_receivers(const ClusteredBases& bases, std::size_t cou
             values.push_back(static_cast<std::uint32_t>(random()) &
                              ((1u << bases.bits[rows[k] - k + static_cast<std::size_t>(j)]) - 1));
         pack_words(k, kClusterBits, layouts[k], values, packed);
-        receivers.clusters.push_back(static_cast<std::uint16_t>(k));
         const auto bytes = std::as_bytes(std::span(packed));
         receivers.weights.insert(receivers.weights.end(), bytes.begin(), bytes.end());
     }

@@ -40,7 +40,7 @@ glm::vec3 position_of(const prt::Scene& scene, std::uint32_t receiver) {
 std::vector<float> decoded(const prt::ClusteredTransfer& transfer, std::size_t receiver,
                            const std::vector<float>& weights) {
     const prt::ClusteredBases& bases = transfer.bases;
-    const std::size_t cluster = transfer.receivers.clusters[receiver], predictors = bases.predictor_rows();
+    const std::size_t cluster = transfer.receivers.cluster(receiver), predictors = bases.predictor_rows();
     std::vector<float> factors;
     for (std::size_t g = 0; g < predictors; ++g)
         factors.push_back(bases.predictor_scale(g) *
@@ -64,7 +64,7 @@ std::vector<float> first_channel(std::span<const float> vector, const prt::Trans
 
 /// Fills cluster, weights and vector from compressed transfer.
 void take_compressed(const prt::ClusteredTransfer& compressed, Hovered& found) {
-    found.cluster = compressed.receivers.clusters[found.receiver];
+    found.cluster = compressed.receivers.cluster(found.receiver);
     const auto layouts = prt::cluster_layouts(compressed.bases);
     found.weights.resize(layouts[static_cast<std::size_t>(found.cluster)].components);
     prt::decode_weights(compressed, layouts, found.receiver, found.weights);

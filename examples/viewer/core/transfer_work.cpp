@@ -188,7 +188,7 @@ number_pictures(const LoadedModel& loaded, const prt::Lighting& lighting, const 
     };
     add(PictureKind::error, prt::error_colors(reference, approximation, areas));
     add(PictureKind::seams,
-        prt::seam_colors(reference, approximation, areas, edges, compressed.receivers.clusters));
+        prt::seam_colors(reference, approximation, areas, edges, compressed.receivers.cluster_indices()));
     return pictures;
 }
 

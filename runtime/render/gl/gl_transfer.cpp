@@ -30,9 +30,8 @@ GlTransfer::GlTransfer(const ClusteredTransfer& transfer)
     layouts_ = make_buffer(std::span<const ClusterLayout>(layouts));
     computed_.resize(relighter_.rows());
     constants_ = make_buffer(std::span<const glm::vec4>(computed_));
-    bytes_ = (words_ > 0 ? 0 : transfer.receivers.clusters.size() * sizeof(std::uint16_t)) +
-             transfer.receivers.weights.size() + layouts.size() * sizeof(ClusterLayout) +
-             computed_.size() * sizeof(glm::vec4);
+    bytes_ = transfer.receivers.clusters.size() * sizeof(std::uint16_t) + transfer.receivers.weights.size() +
+             layouts.size() * sizeof(ClusterLayout) + computed_.size() * sizeof(glm::vec4);
 }
 
 void GlTransfer::set_light(const Lighting& lighting) {

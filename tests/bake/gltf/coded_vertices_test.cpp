@@ -79,7 +79,6 @@ CompressedTransfer transfer_of(const Scene& scene, std::uint32_t size) {
         const std::uint32_t word = cluster | weight << 2;
         const auto* bytes = reinterpret_cast<const std::byte*>(&word);
         receivers.weights.insert(receivers.weights.end(), bytes, bytes + sizeof word);
-        receivers.clusters.push_back(static_cast<std::uint16_t>(cluster));
     }
     return compressed;
 }

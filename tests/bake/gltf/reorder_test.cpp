@@ -97,13 +97,16 @@ TEST(Reorder, ByClusterPutsClustersSideBySideWithinEachArray) {
     ClusteredReceivers receivers;
     receivers.format = WeightFormat::packed;
     receivers.words = 1;
-    receivers.clusters = {2, 0, 2, 1, 1, 0, 1};
+    receivers.cluster_bits = 8; // the first byte
     for (std::size_t i = 0; i < 28; ++i)
         receivers.weights.push_back(static_cast<std::byte>(i));
+    const std::uint8_t clusters[] = {2, 0, 2, 1, 1, 0, 1};
+    for (std::size_t p = 0; p < 7; ++p)
+        receivers.weights[4 * p] = std::byte{clusters[p]};
     const std::vector<std::uint32_t> order = order_by_cluster(scene, receivers);
     EXPECT_EQ(order, (std::vector<std::uint32_t>{1, 3, 0, 2, 5, 4, 6}));
     const ClusteredReceivers moved = reordered(receivers, order);
-    EXPECT_EQ(moved.clusters, (std::vector<std::uint16_t>{0, 1, 2, 2, 0, 1, 1}));
+    EXPECT_EQ(moved.cluster_indices(), (std::vector<std::uint16_t>{0, 1, 2, 2, 0, 1, 1}));
     EXPECT_EQ(moved.weights[5], std::byte{13}); // receiver 3, second byte
 }
 

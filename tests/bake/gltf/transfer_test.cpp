@@ -246,7 +246,7 @@ TEST_P(Weights, CompressedTransferRoundTripsExactly) {
     EXPECT_EQ(read->transfer.bases.bits, c.transfer.bases.bits);
     EXPECT_EQ(read->transfer.receivers.format, format);
     EXPECT_EQ(read->transfer.receivers.words, c.transfer.receivers.words);
-    EXPECT_EQ(read->transfer.receivers.clusters, c.transfer.receivers.clusters);
+    EXPECT_EQ(read->transfer.receivers.cluster_indices(), c.transfer.receivers.cluster_indices());
     EXPECT_EQ(read->transfer.receivers.weights, c.transfer.receivers.weights);
     EXPECT_EQ(read->record.receivers, c.record.receivers);
 }

@@ -287,7 +287,7 @@ TEST_F(LightmapPictures, HaveLobesOfTheTexelUnderThePointer) {
     ASSERT_EQ(found->vector.size(), 16u);
     for (std::size_t i = 0; i < 16; ++i)
         EXPECT_EQ(found->vector[i], whole[i]);
-    EXPECT_EQ(found->cluster, loaded.compressed->receivers.clusters[found->receiver]);
+    EXPECT_EQ(found->cluster, loaded.compressed->receivers.cluster(found->receiver));
 }
 
 TEST_F(LightmapPictures, ErrorsAreBrightestAtTheWorstTexel) {

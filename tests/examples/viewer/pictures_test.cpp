@@ -394,7 +394,7 @@ TEST_F(ViewerPictures, NumbersShowTheirColors) {
         {PictureKind::components, prt::component_colors(transfer)},
         {PictureKind::error, prt::error_colors(reference, approximation, model->areas)},
         {PictureKind::seams, prt::seam_colors(reference, approximation, model->areas, model->edges,
-                                              transfer.receivers.clusters)}};
+                                              transfer.receivers.cluster_indices())}};
     for (const auto& [kind, colors] : pictures) {
         EXPECT_FALSE(gpu->can_draw(kind));
         gpu->set_numbers(kind, colors);

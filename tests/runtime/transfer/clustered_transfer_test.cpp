@@ -36,7 +36,6 @@ ClusteredTransfer random_transfer(const Shape& shape, std::mt19937& random) {
         const std::vector<ClusterLayout> layouts = cluster_layouts(t.bases);
         for (std::size_t p = 0; p < 101; ++p) {
             const auto k = static_cast<std::uint32_t>(random() % 4);
-            t.receivers.clusters.push_back(static_cast<std::uint16_t>(k));
             std::vector<std::uint32_t> values, words(2);
             const std::size_t first = t.bases.first_rows()[k] - k;
             for (std::size_t j = 0; j < layouts[k].components; ++j)
@@ -132,7 +131,6 @@ TEST(ClusteredTransfer, PackedWeightsFollowTheFormat) {
     transfer.receivers.format = WeightFormat::packed;
     transfer.receivers.cluster_bits = 8;
     transfer.receivers.words = 1;
-    transfer.receivers.clusters = {1};
     const std::vector<ClusterLayout> layouts = cluster_layouts(transfer.bases);
     std::vector<std::uint32_t> words(1);
     pack_words(1, 8, layouts[1], std::vector<std::uint32_t>{127, 0, 21, 31}, words);
@@ -157,13 +155,14 @@ TEST(ClusteredTransfer, BytesPerReceiverCountBoundArrays) {
     packed.receivers.words = 2; // 34 bits do not fit one
     packed.bases.components = {2, 3};
     packed.bases.bits = {8, 8, 9, 8, 8};
-    packed.receivers.clusters.assign(10, 0);
+    packed.receivers.clusters.clear();
     packed.receivers.weights.assign(80, std::byte{0});
     EXPECT_EQ(10 * bytes_per_receiver(packed), packed.receivers.weights.size());
     EXPECT_EQ(bits_per_receiver(packed), 34u);
 
     ClusteredTransfer floats = packed;
     floats.receivers.format = WeightFormat::float32;
+    floats.receivers.clusters.assign(10, 0);
     floats.receivers.components = 4; // three in use
     floats.receivers.weights.assign(160, std::byte{0});
     EXPECT_EQ(10 * bytes_per_receiver(floats),
@@ -245,7 +244,6 @@ TEST(ClusteredTransfer, PackedWeightsRoundTripAcrossWords) {
         pack_words(0, 2, cluster_layouts(t.bases)[0], std::span(values).last(8), words);
         const auto* bytes = reinterpret_cast<const std::byte*>(words.data());
         t.receivers.weights.insert(t.receivers.weights.end(), bytes, bytes + 12);
-        t.receivers.clusters.push_back(0);
     }
     const Transfer decoded = decode(t);
     for (std::size_t p = 0; p < 50; ++p)

@@ -112,7 +112,8 @@ struct Palette {
         t.receivers.words = 1;
         t.receivers.weights.resize(4 * colors.size());
         for (std::size_t k = 0; k < colors.size(); ++k) {
-            t.receivers.clusters.push_back(static_cast<std::uint16_t>(k));
+            const auto word = static_cast<std::uint32_t>(k);
+            std::memcpy(&t.receivers.weights[4 * k], &word, sizeof word);
             constants.emplace_back(colors[k], 0);
         }
     }

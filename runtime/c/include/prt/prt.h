@@ -168,8 +168,8 @@ typedef struct prt_model_info {
     size_t stride;              /* bytes per receiver in `weights` */
     const void* weights;        /* [receivers][stride] bytes: vertex attributes prt_weights_* if `format` is
                                    PRT_FLOAT32, prt_words_* if PRT_PACKED */
-    const uint16_t* cluster_of; /* [receivers] index of the cluster: vertex attribute prt_cluster; packed
-                                   weights contain it already */
+    const uint16_t* cluster_of; /* [receivers] index of the cluster: vertex attribute prt_cluster; NULL if
+                                   `format` is PRT_PACKED: the weights contain the index */
     const uint32_t* cluster_table; /* [clusters][4]: the buffer or texture prt_clusters, which the shader
                                       lacks if all clusters have the same layout */
     size_t meshes;                 /* number of meshes, see prt_mesh */

@@ -31,7 +31,8 @@ namespace prt {
 /// Immutable, thread-safe.
 class ClusterLighting {
 public:
-    /// Copies the required data of `transfer`. Throws `Error` if its layout is invalid.
+    /// Copies the required data of `transfer`. Throws `Error` if its layout is invalid, or if `free_rows`
+    /// freed its rows.
     explicit ClusterLighting(const ClusteredTransfer& transfer);
 
     /// Returns the number of SH bands of the lighting.
@@ -65,6 +66,11 @@ private:
     std::size_t rows_;
     std::vector<float> matrix_; ///< see `matrix()`
 };
+
+/// Frees the rows of `transfer` and their coded form, of which `ClusterLighting` and `InstanceRelighter` have
+/// copies. Call it after their construction. The transfer can then be drawn and evaluated (`evaluate`), but
+/// not decoded, written or given to another relighter: these throw `Error`.
+void free_rows(ClusteredTransfer& transfer);
 
 /// Blends the constants `a` and `b` of one model under two lightings: out = a + share (b - a). `share` 0
 /// gives `a`; 1 gives `b`, up to rounding; other values are not clamped. All spans must have the same length,

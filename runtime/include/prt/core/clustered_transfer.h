@@ -45,21 +45,26 @@ struct ClusteredReceivers {
     int cluster_bits = 0;
     /// Format packed: number of 32-bit words per receiver, at least 1. Format float32: not used.
     int words = 0;
-    /// [receivers] index of each receiver's cluster. Format packed: a copy, for the CPU, of the indices that
-    /// the words contain.
+    /// Format float32: [receivers] index of each receiver's cluster. Format packed: empty, because the words
+    /// contain the indices.
     std::vector<std::uint16_t> clusters;
     /// Format float32: floats [receivers][components]; the floats after the m_k weights of a receiver's
     /// cluster are 0. Format packed: 32-bit words [receivers][words] in the byte order of the CPU.
     std::vector<std::byte> weights;
     /// [receivers][`ClusteredBases::predictor_rows`] receiver coordinates minus `Predictor::origin`, not
     /// multiplied by `Predictor::scale`; empty without predictors. Only CPU code reads this array: a vertex
-    /// shader takes normals and positions from the mesh.
+    /// shader takes normals and positions from the mesh. `load_model` leaves it empty; `add_coordinates` of
+    /// prt/load/model.h fills it.
     std::vector<float> predictors;
 
     /// Returns the number of receivers.
-    std::size_t size() const { return clusters.size(); }
+    std::size_t size() const;
     /// Returns the number of bytes of one receiver in `weights`.
     std::size_t stride() const;
+    /// Returns the index of the cluster of a receiver.
+    std::size_t cluster(std::size_t receiver) const;
+    /// Returns the indices of the clusters of all receivers, [receivers].
+    std::vector<std::uint16_t> cluster_indices() const;
 };
 
 /// Compressed transfer.
@@ -80,12 +85,11 @@ void decode_weights(const ClusteredTransfer& transfer, std::span<const ClusterLa
 void pack_words(std::uint32_t cluster, int cluster_bits, const ClusterLayout& layout,
                 std::span<const std::uint32_t> values, std::span<std::uint32_t> words);
 
-/// Fills entries [first, first + count) of `receivers.clusters` with the indices that the packed words in
-/// `receivers.weights` contain. Both arrays must have their final size. Throws `Error` for an index that is
-/// not below `clusters`, the number of clusters. The message of the error names the receiver by the noun
-/// `what` and its number relative to `first`: "vertex 3 has cluster 9, but there are only 8".
-void unpack_clusters(std::size_t clusters, std::size_t first, std::size_t count, const char* what,
-                     ClusteredReceivers& receivers);
+/// Throws `Error` if the cluster index of a receiver in [first, first + count) is not below `clusters`, the
+/// number of clusters. The message of the error names the receiver by the noun `what` and its number relative
+/// to `first`: "vertex 3 has cluster 9, but there are only 8".
+void check_clusters(std::size_t clusters, std::size_t first, std::size_t count, const char* what,
+                    const ClusteredReceivers& receivers);
 
 /// Returns the number of bytes that a game binds per receiver. Format packed: 4 bytes per word. Format
 /// float32: 4 bytes for the cluster index, because glTF pads vertex attributes to four bytes, and 4 bytes for
@@ -105,7 +109,8 @@ std::size_t constant_rows(const ClusteredBases& bases);
 /// Computes the exit radiance of every receiver for albedo 1 on the CPU, as the vertex shader does, and
 /// writes it to `radiance` [receivers]. `constants` is the result of `ClusterLighting::update`. For transfer
 /// with several outputs, writes the SH coefficients of incident light to `radiance` [receivers][outputs];
-/// this transfer must have packed weights and no predictors. Uses `threads` threads; 0: all hardware threads.
+/// this transfer must have packed weights and no predictors. Transfer with predictors must have their
+/// coordinates (ClusteredReceivers::predictors). Uses `threads` threads; 0: all hardware threads.
 void evaluate(const ClusteredTransfer& transfer, std::span<const glm::vec4> constants,
               std::span<glm::vec3> radiance, int threads = 0);
 

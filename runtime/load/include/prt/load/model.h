@@ -102,6 +102,12 @@ struct Model {
     std::vector<NodeOccluder> occluders;    ///< occlusion volumes, in ascending order of nodes
 };
 
+/// Adds the coordinates of predictors (ClusteredReceivers::predictors) to `model.vertices`, for functions
+/// that evaluate or decode transfer on the CPU: `evaluate`, `exit_radiance`, `decode`. Vertex shaders do not
+/// need them. Uses 12 bytes per vertex and predictor. Does nothing without transfer of vertices. Throws
+/// `Error` if a vertex is farther from the origin of a predictor than its scale allows.
+void add_coordinates(Model& model);
+
 /// Reads a .glb file. Throws `Error`, with the path, if the file cannot be read, is damaged or too large, is
 /// not a .glb, has buffers in other files or Draco compression, requires an unsupported extension, or
 /// contains transfer of another version of prtkit. Raw transfer (prt bake) and coarser levels of detail are
