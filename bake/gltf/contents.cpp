@@ -348,6 +348,9 @@ void GltfContents::remove_unused(std::set<std::size_t> accessors, std::set<std::
     erase_accessors(*this, accessors);
     for_each_view(json, [&](std::size_t view) { views.erase(view); });
     erase_views(*this, views);
+    std::vector<GltfBuffer> buffers = std::move(model.buffers);
+    model = read_model(json);
+    model.buffers = std::move(buffers);
 }
 
 } // namespace prt

@@ -16,7 +16,7 @@
 
 namespace prt {
 
-/// Edits of `json` do not update `model`, but its views follow the bytes.
+/// Edits of `json` do not update `model`, except `remove_unused` and its callers; its views follow the bytes.
 struct GltfContents : GltfData {
     tinygltf::Model parsed; ///< materials, textures, images and animations; without buffers
     std::vector<std::vector<std::byte>> images; ///< encoded, by image index; empty: cannot be read
@@ -40,7 +40,7 @@ struct GltfContents : GltfData {
     void remove_transfer();
     /// Removes the volume of prtkit with its data.
     void remove_volume();
-    /// Removes unreferenced elements of `accessors` and `views`, with their data.
+    /// Removes unreferenced elements of `accessors` and `views`, with their data, and updates `model`.
     void remove_unused(std::set<std::size_t> accessors, std::set<std::size_t> views = {});
 };
 

@@ -302,11 +302,15 @@ std::vector<std::byte> compressed_glb(const GltfContents& contents) {
 }
 
 /// Returns the smaller of the files with coded words and with compressed attributes.
-std::vector<std::byte> smallest_glb(const GltfDocument& document) {
-    std::vector<std::byte> file = compressed_glb(document.contents());
-    if (!extension_of(document.contents().json, kClusteredExtension))
+std::vector<std::byte> smallest_glb(const GltfContents& contents) {
+    std::vector<std::byte> file = compressed_glb(contents);
+    if (!extension_of(contents.json, kClusteredExtension))
         return file;
-    const auto coded = with_coded_vertices(document.contents(), reparse(document).contents());
+    GltfData current;
+    current.json = contents.json;
+    current.model = read_model(contents.json);
+    current.model.buffers = {{.outside = contents.binary()}};
+    const auto coded = with_coded_vertices(contents, current);
     if (!coded)
         return file;
     std::vector<std::byte> other = compressed_glb(*coded);
@@ -382,7 +386,7 @@ std::vector<std::byte> encode_glb(const GltfDocument& document, BufferCompressio
     try {
         const GltfContents& contents = document.contents();
         return compression == BufferCompression::meshopt
-                   ? smallest_glb(document)
+                   ? smallest_glb(contents)
                    : glb_bytes(contents, contents.json, contents.binary());
     } catch (const std::exception& error) { // errors of prtkit, the standard library and the JSON library
         throw Error(in_plain_words(error));

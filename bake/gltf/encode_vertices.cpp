@@ -27,7 +27,7 @@ std::vector<int> word_accessors(const GltfPrimitive& primitive) {
     }
 }
 
-GatheredWords gather_words(const GltfContents& read, std::size_t stride) {
+GatheredWords gather_words(const GltfData& read, std::size_t stride) {
     GatheredWords gathered;
     for_each_pair(read, [&](const Json&, const GltfPrimitive& primitive) {
         const std::vector<int> accessors = word_accessors(primitive);
@@ -47,7 +47,7 @@ GatheredWords gather_words(const GltfContents& read, std::size_t stride) {
 
 } // namespace
 
-std::optional<GltfContents> with_coded_vertices(const GltfContents& contents, const GltfContents& read) {
+std::optional<GltfContents> with_coded_vertices(const GltfContents& contents, const GltfData& read) {
     const Json* extension = extension_of(read.json, kClusteredExtension);
     if (!extension || !extension->contains("packing"))
         return std::nullopt;

@@ -9,7 +9,7 @@
 namespace prt {
 
 /// Returns `contents` with coded words instead of attributes _PRT_WEIGHTS_; empty if there are no packed
-/// words, or if the code cannot represent them. `read`: the same contents, with an up-to-date model.
-std::optional<GltfContents> with_coded_vertices(const GltfContents& contents, const GltfContents& read);
+/// words, or if the code cannot represent them. `read`: the same JSON, with an up-to-date model.
+std::optional<GltfContents> with_coded_vertices(const GltfContents& contents, const GltfData& read);
 
 } // namespace prt

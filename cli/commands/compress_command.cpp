@@ -93,21 +93,18 @@ struct Outcome {
 struct Bake {
     GltfDocument document;
     StoredBake stored;
+    Scene scene; ///< vertices with transfer: level 0, and coarser levels if they have transfer
     std::optional<BakedLightmap> lightmap = {}; ///< bake of texels; its transfer is in `stored`
     std::optional<BakedVolume> volume = {};
     bool levels = false;                      ///< coarser levels of detail have transfer, too
+    std::size_t finest_receivers = 0;         ///< with `levels`: number of vertices of level 0
     std::vector<FileInstance> instances = {}; ///< instances that share transfer
 };
 
-/// Returns the scene whose vertices have transfer: level 0, and coarser levels if they have transfer.
-Scene scene_of(const Bake& bake) {
-    return bake.levels ? extract_levels(bake.document).scene : extract_scene(bake.document);
-}
-
-Bake of_lightmap(GltfDocument document, BakedLightmap lightmap) {
+Bake of_lightmap(GltfDocument document, Scene scene, BakedLightmap lightmap) {
     BakedTransfer& baked = lightmap.baked;
     StoredBake stored{{baked.transfer.layout, std::move(baked.transfer.vectors), {}}, baked.record};
-    return {std::move(document), std::move(stored), std::move(lightmap)};
+    return {std::move(document), std::move(stored), std::move(scene), std::move(lightmap)};
 }
 
 /// Returns the levels of the document if they have transfer.
@@ -123,20 +120,23 @@ Error already_compressed(const Path& path) {
     return Error(path.string() + ": is already compressed; compress its bake");
 }
 
-Bake bake_of_surfaces(GltfDocument document, const Scene& scene, const Path& path) {
+Bake bake_of_surfaces(GltfDocument document, Scene scene, const Path& path) {
     if (std::optional<BakedLightmap> lightmap = read_lightmap(document, scene)) {
         discard_transfer(document);
-        return of_lightmap(std::move(document), std::move(*lightmap));
+        return of_lightmap(std::move(document), std::move(scene), std::move(*lightmap));
     }
-    const std::optional<LeveledScene> levels = levels_to_compress(document);
-    std::optional<StoredBake> stored = read_stored_transfer(document, levels ? levels->scene : scene);
+    std::optional<LeveledScene> levels = levels_to_compress(document);
+    if (levels)
+        scene = std::move(levels->scene);
+    std::optional<StoredBake> stored = read_stored_transfer(document, scene);
     if (!stored)
         throw scene_file_of(std::move(document), path, print_notices).compressed
             ? already_compressed(path)
             : Error(path.string() + ": contains no transfer; run prt bake first");
     discard_transfer(document); // it is in `stored`, and would use memory twice
-    Bake bake{std::move(document), std::move(*stored)};
+    Bake bake{std::move(document), std::move(*stored), std::move(scene)};
     bake.levels = levels.has_value();
+    bake.finest_receivers = levels ? levels->finest_receivers : 0;
     return bake;
 }
 
@@ -150,7 +150,7 @@ Bake load_bake(const Path& path, const GltfOptions& reading) {
     GltfOptions options = reading;
     options.instancing = Instancing::separate; // each mesh once, as its transfer is stored
     GltfDocument document = load_gltf(path, options);
-    const Scene scene = extract_scene(document);
+    Scene scene = extract_scene(document);
     std::vector<FileInstance> instances;
     if (holds_instances(document))
         instances = instances_of(path, reading, scene);
@@ -158,7 +158,7 @@ Bake load_bake(const Path& path, const GltfOptions& reading) {
         throw already_compressed(path);
     std::optional<BakedVolume> volume = read_volume(document, scene);
     discard_volume(document);
-    Bake bake = bake_of_surfaces(std::move(document), scene, path);
+    Bake bake = bake_of_surfaces(std::move(document), std::move(scene), path);
     bake.volume = std::move(volume);
     bake.instances = std::move(instances);
     return bake;
@@ -189,24 +189,13 @@ std::optional<CompressedVolumeResult> compress_probes(const CompressArguments& a
 /// Weight of coarser levels. Clusters are optimised for level 0, and coarser levels are assigned to them.
 constexpr float kShareOfCoarser = 1e-3f;
 
-std::vector<float> areas_to_compress(const LeveledScene& levels) {
-    std::vector<float> areas = receiver_areas(levels.scene);
-    for (std::size_t p = levels.finest_receivers; p < areas.size(); ++p)
+std::vector<float> areas_to_compress(const Bake& bake) {
+    if (!bake.levels)
+        return instanced_areas(bake.document, bake.scene);
+    std::vector<float> areas = receiver_areas(bake.scene);
+    for (std::size_t p = bake.finest_receivers; p < areas.size(); ++p)
         areas[p] *= kShareOfCoarser;
     return areas;
-}
-
-SceneSurface surface_of_vertices(const Bake& bake) {
-    if (bake.levels) {
-        const LeveledScene levels = extract_levels(bake.document);
-        SceneSurface surface(levels.scene);
-        surface.areas = areas_to_compress(levels);
-        return surface;
-    }
-    const Scene scene = extract_scene(bake.document);
-    SceneSurface surface(scene);
-    surface.areas = instanced_areas(bake.document, scene);
-    return surface;
 }
 
 /// Returns the areas and edges of the receivers for the compressor.
@@ -215,11 +204,11 @@ SceneSurface surface_of(const Bake& bake, const SearchOptions& options) {
         SceneSurface surface;
         surface.areas = bake.lightmap->areas;
         surface.edges = lightmap_edges(bake.lightmap->layout, bake.lightmap->texels, bake.lightmap->seams);
-        surface.jumps =
-            seam_jumps(extract_scene(bake.document), bake.lightmap->layout, bake.lightmap->texels);
+        surface.jumps = seam_jumps(bake.scene, bake.lightmap->layout, bake.lightmap->texels);
         return surface;
     }
-    SceneSurface surface = surface_of_vertices(bake);
+    SceneSurface surface(bake.scene);
+    surface.areas = areas_to_compress(bake);
     const bool chooses = options.budget.any() && options.choose_predictors;
     if (!chooses && options.compress.predictors != PredictorChoice::normal_and_position)
         surface.positions = {};
@@ -502,7 +491,7 @@ void choose_for_texels(const CompressArguments& a, SearchOptions& options) {
 
 /// Returns the data for writing a file; the transfer is not moved.
 Bake bake_without_transfer(Bake& bake) {
-    return {std::move(bake.document), {{}, bake.stored.record}, bake.lightmap};
+    return {std::move(bake.document), {{}, bake.stored.record}, {}, bake.lightmap};
 }
 
 std::vector<Path> check_files(const CompressArguments& a) {
@@ -557,7 +546,7 @@ void run(CompressArguments a, Session& session) {
     Outcome outcome = run_compressor(a, transfer, surface->view(), options, session);
     surface.reset();
     session.write(a.reports.trace, trace);
-    Scene scene = scene_of(bake);
+    Scene scene = std::move(bake.scene);
     const VertexReuse reuse_before = vertex_reuse(scene);
     const std::optional<BakedLightmap> texels = bake.lightmap;
     const std::optional<CompressedVolumeResult> volume =

@@ -4,10 +4,13 @@
 #include "prt/core/error.h"
 #include "prt/gltf/transfer_gltf.h"
 #include "support/glb_file.h"
+#include "support/random_volume.h"
+#include "support/volume_model.h"
 
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <random>
 
 namespace prt {
 namespace lobes_of_files { // joined sources share one scope
@@ -86,6 +89,19 @@ TEST(LobesOfFiles, ReplaceOtherTransferAndAreRemovedForIt) {
     const GlbFile left = test::glb_of(encode_glb(document));
     EXPECT_FALSE(left.json.contains("extensionsUsed"));
     EXPECT_FALSE(left.json["meshes"][0]["primitives"][0]["attributes"].contains("_PRT_LOBE_0"));
+}
+
+TEST(LobesOfFiles, AreReadAfterTheVolumeIsDiscarded) {
+    std::mt19937 random(3);
+    GltfDocument document = parsed(test::with_volume(two_triangles(), test::random_volume(2, false, random)));
+    write_lobes(document, extract_scene(document), any_lobes());
+    document = read_again(document); // the views of the volume are before those of the lobes
+    const Scene scene = extract_scene(document);
+    discard_volume(document);
+    const std::optional<StoredLobes> read = read_lobes(document, scene);
+    ASSERT_TRUE(read);
+    EXPECT_EQ(read->model.words, any_lobes().model.words);
+    EXPECT_FALSE(read_compressed_volume(document, scene));
 }
 
 std::string error_of(const GlbFile& file) {
