@@ -175,9 +175,11 @@ void run(RelightArguments a, Session& session) {
     const LoadedLight light =
         a.environment.empty() ? dark_sky(model.order())
                               : load_light(a.environment, model.order(), suns, a.light_options, a.threads);
+    const bool needs_colors =
+        a.colors == ColorKind::albedo || (a.colors == ColorKind::unlit && a.exposure.automatic);
     std::vector<Texture> textures = about(a.model, [&] {
         return load_textures(model.scene, a.reading.bad_textures,
-                             a.colors == ColorKind::albedo ? TextureNeeds::all : TextureNeeds::shadows);
+                             needs_colors ? TextureNeeds::all : TextureNeeds::shadows);
     });
     const std::vector<bool> solid = solid_materials(model);
     ProgressBar bar = session.progress_bar("relighting");

@@ -217,7 +217,9 @@ std::vector<glm::vec3> colors_to_show(const RenderArguments& a, const SceneFile&
     switch (a.look.show) {
     case Show::clusters:
         if (!model.compressed)
-            throw Error("--show clusters needs a compressed file");
+            throw Error(model.instanced && model.instanced->compressed
+                            ? "--show clusters does not support instances that share transfer"
+                            : "--show clusters needs a compressed file");
         return cluster_colors(model.compressed->transfer);
     case Show::ao: // exit radiance under uniform light of radiance 1
         return lit_colors(model,

@@ -168,8 +168,9 @@ void run(ShaderArguments a, Session& session) {
         return write_lobe_shader(a, model, session);
     if (a.stage == Stage::occluders)
         return write_occluder_shader(a, model, session);
+    const bool automatic = a.stage != Stage::fragment && a.stage != Stage::instances;
     if (a.stage == Stage::volume || a.stage == Stage::volume_compute ||
-        (model.compressed_volume && !model.compressed))
+        (automatic && model.compressed_volume && !model.compressed))
         return write_volume_shader(a, model, session);
     const std::optional<CompressedTransfer>& compressed =
         model.instanced ? model.instanced->compressed : model.compressed;
@@ -229,8 +230,7 @@ void add_shader(CLI::App& app, Session& session) {
            "buffer, else texture");
     choice(command, "--stage", a.stage, kStages,
            "shader to write\n"
-           "if the file has only a volume: vertex, fragment and instances act as volume, compute as\n"
-           "  volume-compute",
+           "if the file has only a volume: vertex acts as volume, compute as volume-compute",
            "vertex")
         ->type_name("STAGE");
     add_reading(command, a.reading);

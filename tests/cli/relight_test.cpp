@@ -107,6 +107,27 @@ TEST_F(Relight, WritesUnlitMaterialsWithAnExposure) {
               2);
 }
 
+/// A magenta texture removes the green of the sun from the mean luminance: 0.2126 times the red of 0.5
+/// remains.
+TEST_F(Relight, CountsTexturesInTheAutomaticExposure) {
+    GlbFile file = scene_file(SceneBuilder().floor({0, 0, 0}, 1, 2).build());
+    const std::vector<glm::u8vec3> magenta(4, glm::u8vec3(255, 0, 255));
+    file.json["images"] = {{{"bufferView", file.view(encode_png(2, 2, magenta))}, {"mimeType", "image/png"}}};
+    file.json["textures"] = {{{"source", 0}}};
+    file.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+    const std::size_t count = file.json["accessors"][0]["count"];
+    auto& primitive = file.json["meshes"][0]["primitives"][0];
+    primitive["attributes"]["TEXCOORD_0"] =
+        file.accessor(std::vector<float>(2 * count, 0.5f), kFloat, "VEC2", count);
+    primitive["material"] = 0;
+    file.write(folder / "s.glb");
+    ASSERT_EQ(prt({"bake", at("s.glb"), "-o", at("b.glb"), "--rays", "256", "--order", "4"}).status, 0);
+    const float automatic = 0.22f / (0.2126f * 0.5f);
+    for (const glm::vec3& color :
+         relit({at("b.glb"), "--lights", at("sun.json"), "--colors", "unlit", "--exposure", "auto-2"}))
+        EXPECT_LT(glm::distance(color, 0.25f * automatic * glm::vec3(0.5f, 0.4f, 0)), 3e-3f);
+}
+
 /// A sun of one texel is found in the image, and shadowed by rays or kept in the sky: on an open floor the
 /// results are equal.
 TEST_F(Relight, FindsSunsInImages) {

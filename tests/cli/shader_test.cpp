@@ -117,6 +117,8 @@ TEST_F(VolumeShader, HasOneLookupForEveryLanguage) {
         // the file contains only a volume
         ASSERT_EQ(prt({"shader", at("v.glb"), "-o", at("again.glsl")}).status, 0);
         EXPECT_EQ(text_of(folder / "v.glsl"), text_of(folder / "again.glsl"));
+        for (const char* stage : {"fragment", "instances"})
+            EXPECT_EQ(prt({"shader", at("v.glb"), "-o", at("no.glsl"), "--stage", stage}).status, 1);
         const std::string use =
             "layout(location = 0) out vec4 color;\n"
             "void main() {\n"

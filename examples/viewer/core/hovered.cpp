@@ -64,7 +64,7 @@ std::vector<float> first_channel(std::span<const float> vector, const prt::Trans
 
 /// Fills cluster, weights and vector from compressed transfer.
 void take_compressed(const prt::ClusteredTransfer& compressed, Hovered& found) {
-    found.cluster = compressed.receivers.cluster(found.receiver);
+    found.cluster = static_cast<int>(compressed.receivers.cluster(found.receiver));
     const auto layouts = prt::cluster_layouts(compressed.bases);
     found.weights.resize(layouts[static_cast<std::size_t>(found.cluster)].components);
     prt::decode_weights(compressed, layouts, found.receiver, found.weights);
