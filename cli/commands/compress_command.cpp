@@ -19,7 +19,7 @@
 #include "cli/report/volume_report.h"
 #include "compress/metric/jumps.h"
 #include "prt/bake/lightmap_bake.h"
-#include "prt/compress/compress_volume.h"
+#include "prt/compress/compress.h"
 #include "prt/compress/search.h"
 #include "prt/core/cluster_lighting.h"
 #include "prt/core/error.h"

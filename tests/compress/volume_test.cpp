@@ -1,6 +1,6 @@
 // Volumes through the compressor.
 
-#include "prt/compress/compress_volume.h"
+#include "prt/compress/compress.h"
 #include "prt/core/error.h"
 #include "prt/core/error_measures.h"
 

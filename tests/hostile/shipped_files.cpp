@@ -4,7 +4,6 @@
 
 #include "bake/gltf/vertex_fallback.h"
 #include "prt/compress/compress.h"
-#include "prt/compress/compress_volume.h"
 #include "prt/gltf/gltf.h"
 #include "support/lightmap_model.h"
 #include "support/predicted.h"

@@ -7,7 +7,7 @@
 #include "bake/gltf/rigid_parts.h"
 #include "prt/bake/ambient_occlusion.h"
 #include "prt/bake/volume_bake.h"
-#include "prt/compress/compress_volume.h"
+#include "prt/compress/compress.h"
 #include "prt/core/error.h"
 #include "prt/gltf/transfer_gltf.h"
 

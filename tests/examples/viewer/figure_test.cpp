@@ -10,7 +10,6 @@
 #include "prt/bake/bake.h"
 #include "prt/bake/volume_bake.h"
 #include "prt/compress/compress.h"
-#include "prt/compress/compress_volume.h"
 #include "prt/core/error.h"
 #include "prt/gl/gl_context.h"
 #include "prt/gltf/transfer_gltf.h"

@@ -13,6 +13,7 @@
 #include "prt/compress/receiver_surface.h"
 #include "prt/core/clustered_transfer.h"
 #include "prt/core/progress.h"
+#include "prt/core/transfer_volume.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -159,5 +160,34 @@ struct CompressResult {
 /// receiver, and about a hundred bytes. The time is proportional to receivers × clusters × components.
 CompressResult compress(const TransferView& transfer, const ReceiverSurface& surface,
                         const CompressOptions& options, const Progress& progress = {});
+
+// Volumes: each probe is one receiver, whose transfer vector has one output per SH coefficient of incident
+// light (TransferLayout::outputs).
+
+/// Returns a view of the raw transfer of `volume` with one receiver per probe and `volume.coefficients()`
+/// outputs. The view keeps a reference to `volume`, which must outlive the view.
+TransferView as_probes(const BakedVolume& volume);
+
+/// Returns a metric for vectors with `outputs` outputs: 4, 9 or 16, which is not checked. The cost of an
+/// error is the sum over the outputs of the cost under `of_one`, a metric of exit radiance (one output). This
+/// sum is proportional to the squared error of incident light, averaged over all directions.
+LightMetric incident_metric(const LightMetric& of_one, std::size_t outputs);
+
+/// Returns a coding with 128 bits per probe: 8 bits for the cluster index, which allow up to 256 clusters,
+/// and 120 bits for weights.
+WeightCoding preset_volume();
+
+/// Result of `compress_volume`.
+struct CompressedVolumeResult {
+    CompressedVolume volume;       ///< grid, order, visibility and record are those of the input
+    CompressStatistics statistics; ///< receivers are probes; `sky_contrast` and `lamp_contrast` are 0
+};
+
+/// Compresses `volume`. All probes have the same significance. `options` are used as in `compress`, except:
+/// `coding.format` must be `packed`, else throws `Error`. `metric` is a metric of exit radiance (one output);
+/// without a value it is that of `LightFamily::outdoor`, `balanced`. `predictors` and `seam_weight` are
+/// ignored: no predictors are used, and jumps are not reduced. Throws the errors of `compress`.
+CompressedVolumeResult compress_volume(const BakedVolume& volume, CompressOptions options,
+                                       const Progress& progress = {});
 
 } // namespace prt

@@ -2,7 +2,7 @@
 
 // Cost of a transfer error: the mean squared error of exit radiance over a set of lightings. The functions
 // that create a metric require a layout with one output, which is not checked; `incident_metric`
-// (prt/compress/compress_volume.h) extends a metric to several outputs.
+// (prt/compress/compress.h) extends a metric to several outputs.
 
 #include "prt/core/light.h"
 #include "prt/core/transfer_view.h"

@@ -1,5 +1,5 @@
 // Compresses volumes with probes as receivers.
-#include "prt/compress/compress_volume.h"
+#include "prt/compress/compress.h"
 
 #include "prt/core/error.h"
 
