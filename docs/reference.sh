@@ -3,12 +3,12 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 mkdir -p build/reference
-doxygen - <<'SETTINGS'
+headers=$(find runtime bake compress -type d -name include | sort | tr '\n' ' ')
+doxygen - <<SETTINGS
 PROJECT_NAME = prtkit
 OUTPUT_DIRECTORY = build/reference
-INPUT = README.md CONTRIBUTING.md CHANGELOG.md docs runtime bake/include compress/include
+INPUT = README.md CONTRIBUTING.md CHANGELOG.md docs $headers
 FILE_PATTERNS = *.h *.md
-EXCLUDE_PATTERNS = */runtime/sh/*.h */runtime/light/*.h */bake/gltf/* */runtime/image/*.h
 RECURSIVE = YES
 USE_MDFILE_AS_MAINPAGE = README.md
 EXTRACT_ALL = YES

@@ -110,9 +110,8 @@ void add_compressed(const CompressedTransfer& compressed, Report& report) {
                            {"predictors", predictor_names(t.bases)},
                            {"predictor_rows", t.bases.predictor_rows()},
                            {"bytes_bases", basis_bytes(t.bases)},
-                           {"bytes_gpu_vertices", t.receivers.size() * bytes_per_receiver(t)},
-                           {"bytes_gpu_constants", constant_rows(t.bases) * sizeof(glm::vec4) +
-                                                       t.bases.clusters() * sizeof(ClusterLayout)},
+                           {"bytes_attributes", t.receivers.size() * bytes_per_receiver(t)},
+                           {"bytes_constants", constant_rows(t.bases) * sizeof(glm::vec4)},
                            {"bytes_ram", ClusterLighting(t).matrix().size_bytes()},
                            {"bake", bake_record_json(compressed.record)}}}});
     const std::string own = "clustered_pca/";
@@ -127,9 +126,9 @@ void add_compressed(const CompressedTransfer& compressed, Report& report) {
     report.sentences.push_back(fmt::format("bases: {{{0}bytes_bases}} bytes on disk, {{{0}bytes_ram}} bytes "
                                            "of RAM in a game; {1} shader constants",
                                            own, constant_rows(t.bases)));
-    report.sentences.push_back(fmt::format("GPU: {{{0}bytes_gpu_vertices}} bytes of vertices, "
-                                           "{{{0}bytes_gpu_constants}} of constants and clusters",
-                                           own));
+    report.sentences.push_back(fmt::format(
+        "GPU: {{{0}bytes_attributes}} bytes of attributes, {{{0}bytes_constants}} of constants per lighting",
+        own));
     report.sentences.push_back(record_sentence(own + "bake", compressed.record));
 }
 

@@ -16,7 +16,7 @@
 
 const prt::ClusteredTransfer& prt_model::transfer_for_cpu() const {
     std::call_once(has_coordinates,
-                   [&] { transfer.receivers.predictors = prt::checked_coordinates(scene, transfer.bases); });
+                   [&] { transfer.receivers.predictors = prt::predictor_coordinates(scene, transfer.bases.predictors); });
     return transfer;
 }
 

@@ -59,6 +59,9 @@ void read_texcoords(const GltfModel& model, const GltfPrimitive& primitive, Vert
             return;
         vertices.texcoords.push_back(read_vectors<glm::vec2>(model, accessor));
         check_count(vertices.texcoords.back().size(), vertices.size(), "TEXCOORD");
+        for (glm::vec2& uv : vertices.texcoords.back())
+            if (!std::isfinite(uv.x) || !std::isfinite(uv.y))
+                uv = glm::vec2(0); // as the tools repair a file
     }
 }
 

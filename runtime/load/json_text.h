@@ -16,10 +16,10 @@ Json parse_json(std::string_view text);
 /// the extensions of prtkit. Returns their number.
 std::size_t remove_nulls(Json& json);
 
-/// Returns whether the reader takes an extension from the model of tinygltf, not from the JSON alone.
+/// Returns whether bake/gltf takes an extension from the model of tinygltf, not from the JSON alone.
 bool is_taken_extension(std::string_view name);
 
-/// Returns a copy of a glTF without extras and without extensions that only the JSON holds for the reader:
+/// Returns a copy of a glTF without extras and without extensions that bake/gltf reads from the JSON alone:
 /// tinygltf keeps ten times the memory for each value of theirs.
 Json without_unread(const Json& json);
 

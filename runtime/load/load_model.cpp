@@ -131,7 +131,7 @@ Model parse_model(std::span<const std::byte> file, const std::filesystem::path& 
 void add_coordinates(Model& model) {
     if (model.vertices)
         model.vertices->transfer.receivers.predictors =
-            checked_coordinates(model.scene, model.vertices->transfer.bases);
+            predictor_coordinates(model.scene, model.vertices->transfer.bases.predictors);
 }
 
 Model load_model(const std::filesystem::path& path) {

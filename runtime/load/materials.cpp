@@ -33,7 +33,7 @@ Material read_base_material(const Json& json, UnitRange& range) {
                               : *mode == "BLEND" ? AlphaMode::blend
                                                  : AlphaMode::opaque;
     if (const auto cutoff = json.find("alphaCutoff"); cutoff != json.end() && cutoff->is_number())
-        material.alpha_cutoff = static_cast<float>(cutoff->get<double>());
+        material.alpha_cutoff = static_cast<float>(std::clamp(cutoff->get<double>(), 0.0, 1e6));
     material.double_sided = json.contains("doubleSided") && json["doubleSided"] == true;
     return material;
 }

@@ -6,6 +6,14 @@
 #include <cmath>
 
 namespace prt {
+namespace {
+
+glm::vec3 coordinate(const Predictor& predictor, const VertexArray& vertices, std::size_t vertex) {
+    return predictor.kind == PredictorKind::normal ? vertices.normals[vertex]
+                                                   : vertices.positions[vertex] - predictor.origin;
+}
+
+} // namespace
 
 std::vector<float> predictor_coordinates(const Scene& scene, std::span<const Predictor> predictors) {
     std::vector<float> coordinates;
@@ -13,23 +21,22 @@ std::vector<float> predictor_coordinates(const Scene& scene, std::span<const Pre
     for (const VertexArray& vertices : scene.vertex_arrays)
         for (std::size_t v = 0; v < vertices.size(); ++v)
             for (const Predictor& predictor : predictors) {
-                const glm::vec3 x = predictor.kind == PredictorKind::normal
-                                        ? vertices.normals[v]
-                                        : vertices.positions[v] - predictor.origin;
+                const glm::vec3 x = coordinate(predictor, vertices, v);
                 coordinates.insert(coordinates.end(), {x.x, x.y, x.z});
             }
     return coordinates;
 }
 
-std::vector<float> checked_coordinates(const Scene& scene, const ClusteredBases& bases) {
-    if (bases.predictors.empty())
-        return {};
-    std::vector<float> coordinates = predictor_coordinates(scene, bases.predictors);
-    for (std::size_t i = 0; i < coordinates.size(); ++i)
-        if (!(std::abs(coordinates[i] * bases.predictor_scale(i % bases.predictor_rows())) <=
-              kMaxFloatWeight))
-            throw Error("a vertex is farther from the origin of a predictor than its scale allows");
-    return coordinates;
+void check_predictors(const Scene& scene, std::span<const Predictor> predictors) {
+    const auto check = [](const glm::vec3& x, const glm::vec3& scale) {
+        for (int i = 0; i < 3; ++i)
+            if (!(std::abs(x[i] * scale[i]) <= kMaxFloatWeight))
+                throw Error("a vertex is farther from the origin of a predictor than its scale allows");
+    };
+    for (const Predictor& predictor : predictors)
+        for (const VertexArray& vertices : scene.vertex_arrays)
+            for (std::size_t v = 0; v < vertices.size(); ++v)
+                check(coordinate(predictor, vertices, v), predictor.scale);
 }
 
 } // namespace prt

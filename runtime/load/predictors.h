@@ -18,8 +18,7 @@ std::vector<float> predictor_coordinates(const Scene& scene, std::span<const Pre
 /// Maximum magnitude of a float weight, and of a coordinate times its scale; corresponds to `kMaxTransfer`.
 inline constexpr float kMaxFloatWeight = 1e9f;
 
-/// Returns the predictor coordinates of each receiver of `scene` for `bases`; empty without predictors.
-/// Throws `Error` if a coordinate times its scale exceeds `kMaxFloatWeight`.
-std::vector<float> checked_coordinates(const Scene& scene, const ClusteredBases& bases);
+/// Throws `Error` if a coordinate of a receiver of `scene`, times its scale, exceeds `kMaxFloatWeight`.
+void check_predictors(const Scene& scene, std::span<const Predictor> predictors);
 
 } // namespace prt

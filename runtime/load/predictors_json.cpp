@@ -81,7 +81,8 @@ std::vector<float> read_coordinates(const GltfData& contents, const Scene& scene
     check_allowed(static_cast<double>(scene.receivers()) * static_cast<double>(bases.predictor_rows()) *
                       sizeof(float),
                   contents.file_bytes, "the coordinates of its predictors");
-    return checked_coordinates(scene, bases);
+    check_predictors(scene, bases.predictors);
+    return predictor_coordinates(scene, bases.predictors);
 }
 
 } // namespace prt

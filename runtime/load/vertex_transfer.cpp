@@ -152,6 +152,7 @@ std::optional<CompressedTransfer> read_clustered(const GltfData& contents, const
         receivers.components = (bases.max_components() + 3) / 4 * 4;
     if (!packed)
         receivers.clusters.resize(scene.receivers());
+    check_predictors(scene, bases.predictors);
     TransferOfVertices read;
     for (const Primitive& primitive : scene.primitives) {
         const Json& attributes = primitive_json(contents, primitive).at("attributes");

@@ -41,7 +41,7 @@ PARTS = {
     "viewer": ("examples/viewer", "runtime fit image load gltf render gl shader bake compress compress_study report pipeline",
                "glm fmt CLI nlohmann imgui glfw epoxy meshoptimizer"),
     # It measures pictures of the viewer.
-    "comparison": ("examples/comparison", "viewer runtime image scene render gl shader bake compress compress_study fit",
+    "comparison": ("examples/comparison", "viewer runtime image load gltf render gl shader bake compress compress_study fit",
                    "glm fmt CLI nlohmann epoxy"),
 }
 # Folders of libraries with layers, from the lowest to the highest.

@@ -6,6 +6,7 @@
 #include "prt/core/light.h"
 #include "prt/core/lightmap.h"
 #include "prt/gltf/transfer_gltf.h"
+#include "prt/load/model.h"
 #include "runtime/render/lightmap_lookup.h"
 #include "target.h"
 
@@ -103,10 +104,9 @@ void check_lightmap(const Scene& scene, const CompressedLightmap& lightmap) {
         expect(cluster < transfer.bases.clusters(), "a texel is in no cluster");
 }
 
-/// Evaluates occluders of nodes at positions in and around their boxes; and the parts that could be
-/// occluders.
-void check_occluders(const GltfDocument& document, const Scene& scene) {
-    for (const NodeOccluder& occluder : read_occluders(document)) {
+/// Evaluates occluders of nodes at positions in and around their boxes.
+void check_occluders(std::span<const NodeOccluder> occluders) {
+    for (const NodeOccluder& occluder : occluders) {
         const PlacedOccluder where = placed(occluder.volume, glm::mat4(1), 0);
         for (const float at : {0.0f, 0.3f, 1.0f, 1.7f, 40.0f}) {
             const glm::vec3 position =
@@ -115,6 +115,9 @@ void check_occluders(const GltfDocument& document, const Scene& scene) {
             expect(blocked >= 0 && blocked <= 1, "an occluder blocks more than there is");
         }
     }
+}
+
+void check_rigid_parts(const GltfDocument& document, const Scene& scene) {
     std::size_t triangles = 0;
     for (const RigidPart& term : rigid_parts(document, scene))
         triangles += term.scene.triangles();
@@ -122,8 +125,7 @@ void check_occluders(const GltfDocument& document, const Scene& scene) {
 }
 
 /// Evaluates every vertex with its lobes, for any bytes.
-void check_lobes_of(const GltfDocument& document, const Scene& scene) {
-    const std::optional<StoredLobes> stored = read_lobes(document, scene);
+void check_lobes_of(const std::optional<StoredLobes>& stored, const Scene& scene) {
     if (!stored)
         return;
     expect(stored->model.vertices() == scene.receivers(), "lobes of other vertices");
@@ -142,8 +144,9 @@ WholeModel read_whole(std::span<const std::byte> file, const std::filesystem::pa
     GltfDocument document = parse_gltf(file, path);
     Scene scene = extract_scene(document);
     check_scene(scene);
-    check_occluders(document, scene);
-    check_lobes_of(document, scene);
+    check_occluders(read_occluders(document));
+    check_rigid_parts(document, scene);
+    check_lobes_of(read_lobes(document, scene), scene);
     auto baked = read_transfer(document, scene);
     auto compressed = read_clustered(document, scene);
     if (baked) {
@@ -187,6 +190,34 @@ void expect_finite_light(const CompressedLightmap& lightmap) {
         std::vector<std::byte> texels(relighter.bytes(m));
         relighter.update(m, computed, texels, 1);
     }
+}
+
+void use_loaded(std::span<const std::byte> file, const std::filesystem::path& path) {
+    Model model = parse_model(file, path);
+    check_scene(model.scene);
+    if (model.vertices) {
+        ClusteredTransfer& transfer = model.vertices->transfer;
+        expect(transfer.receivers.size() == model.scene.receivers(), "loaded weights for other vertices");
+        add_coordinates(model);
+        expect_finite_light(transfer);
+        for (const FileInstance& instance : model.instances)
+            for (const std::size_t array : instance.stored_arrays)
+                expect(array < model.scene.vertex_arrays.size(), "an instance draws no vertices");
+        if (!model.instances.empty())
+            relit_instances(model.instances, model.scene, transfer);
+    }
+    if (model.lightmap) {
+        const CompressedLightmap lightmap = decoded_lightmap(std::move(*model.lightmap));
+        check_lightmap(model.scene, lightmap);
+        expect_finite_light(lightmap);
+    }
+    if (model.volume) {
+        const Lighting lighting{constant_light(kMaxOrder, glm::vec3(1))};
+        for (const glm::vec3& light : incident_light(*model.volume, lighting, 1))
+            expect_finite(std::span<const float>(&light.x, 3), "light of probes");
+    }
+    check_lobes_of(model.lobes, model.scene);
+    check_occluders(model.occluders);
 }
 
 } // namespace prt::fuzz

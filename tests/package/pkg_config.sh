@@ -18,7 +18,7 @@ $cc -std=c11 -D_POSIX_C_SOURCE=200809L "$tests/runtime/c/c_test.c" -o "$folder/c
 LD_LIBRARY_PATH=$libdir "$folder/c" "$model" "$sky"
 build bare "$tests/package/bare.cpp" prtkit
 "$folder/bare"
-build loader "$tests/package/loader/main.cpp" prtkit-gltf prtkit-shader
+build loader "$tests/package/loader/main.cpp" prtkit-load prtkit-shader
 "$folder/loader" "$model"
 build user "$tests/package/main.cpp" prtkit-compress prtkit-bake prtkit-gl
 "$folder/user"

@@ -3,7 +3,7 @@ if(NOT TARGET prt OR NOT TARGET example_scenes OR PRTKIT_SANITIZED)
     return()
 endif()
 set(installed ${PRTKIT_TESTS_BINARY_DIR}/installed)
-set(hidden_packages Ceres CLI11 Eigen3 embree fmt glfw3 nlohmann_json OpenEXR PkgConfig)
+set(hidden_packages Ceres CLI11 Eigen3 embree fmt glfw3 nlohmann_json OpenEXR PkgConfig TinyGLTF)
 add_test(NAME install COMMAND ${CMAKE_COMMAND} --install ${PROJECT_BINARY_DIR} --prefix ${installed})
 set_tests_properties(install PROPERTIES FIXTURES_SETUP installed)
 

@@ -2,9 +2,9 @@
 
 // Creates texture coordinates without overlaps for all surfaces of a scene. Experimental.
 
+#include "bake/gltf/vertex_splits.h"
 #include "prt/bake/texels.h"
 #include "prt/load/scene.h"
-#include "bake/gltf/vertex_splits.h"
 
 #include <cstddef>
 #include <vector>

@@ -1,7 +1,7 @@
-// Loads a compressed model and relights it; links prt::gltf and prt::shader alone.
+// Loads a compressed model and relights it; links prt::load and prt::shader alone.
 
 #include "prt/core/cluster_lighting.h"
-#include "prt/gltf/gltf.h"
+#include "prt/load/model.h"
 #include "prt/shader/shader_source.h"
 
 #include <cstdio>
@@ -9,9 +9,9 @@
 int main(int count, char** arguments) {
     if (count != 2)
         return 2;
-    const prt::GltfDocument document = prt::load_gltf(arguments[1]);
-    const prt::Scene scene = prt::extract_scene(document);
-    const prt::ClusteredTransfer transfer = prt::read_clustered(document, scene)->transfer;
+    prt::Model model = prt::load_model(arguments[1]);
+    prt::add_coordinates(model); // for exit_radiance
+    const prt::ClusteredTransfer& transfer = model.vertices->transfer;
     const auto radiance =
         prt::exit_radiance(transfer, prt::constant_light(transfer.bases.layout.order, glm::vec3(1)));
     double mean = 0;

@@ -139,8 +139,9 @@ PRT_API prt_status prt_light_dering(int order, float* light, prt_message* messag
 /* Handle of a model with compressed transfer, in a file that `prt compress` has written. */
 typedef struct prt_model prt_model;
 
-/* Loads a model from a glTF file (.glb or .gltf) and writes its handle to *model; the caller destroys it with
- * prt_model_destroy. If loading fails, *model is null. */
+/* Loads a model from a .glb file and writes its handle to *model; the caller destroys it with
+ * prt_model_destroy. The file must contain all of its data, without Draco compression; prt compress writes
+ * such files. For other files returns PRT_BAD_FILE. If loading fails, *model is null. */
 PRT_API prt_status prt_model_load(const char* path, prt_model** model, prt_message* message);
 /* Loads a model from a .glb file in memory, `size` bytes at `bytes`, and writes its handle to *model; the
  * caller destroys it with prt_model_destroy. If loading fails, *model is null. The caller may free `bytes`
@@ -168,7 +169,7 @@ typedef struct prt_model_info {
     size_t stride;              /* bytes per receiver in `weights` */
     const void* weights;        /* [receivers][stride] bytes: vertex attributes prt_weights_* if `format` is
                                    PRT_FLOAT32, prt_words_* if PRT_PACKED */
-    const uint16_t* cluster_of; /* [receivers] index of the cluster: vertex attribute prt_cluster; NULL if
+    const uint16_t* cluster_of; /* [receivers] index of the cluster: vertex attribute prt_cluster; null if
                                    `format` is PRT_PACKED: the weights contain the index */
     const uint32_t* cluster_table; /* [clusters][4]: the buffer or texture prt_clusters, which the shader
                                       lacks if all clusters have the same layout */
@@ -236,7 +237,8 @@ PRT_API prt_status prt_model_update_constants_separate(const prt_model* model, i
                                                        float* constants, prt_message* message);
 /* Computes the exit radiance for albedo 1 of all receivers on the CPU, as the vertex shader does, and writes
  * it to `radiance` [receivers][3]. `constants` [rows][4] is the result of prt_model_update_constants. If the
- * magnitude of a constant exceeds 1e30, returns PRT_BAD_ARGUMENT. Uses all threads of the machine. */
+ * magnitude of a constant exceeds 1e30, returns PRT_BAD_ARGUMENT. The first call allocates 12 bytes per
+ * receiver and predictor. Uses all threads of the machine. */
 PRT_API prt_status prt_model_evaluate(const prt_model* model, const float* constants, float* radiance,
                                       prt_message* message);
 
@@ -302,8 +304,8 @@ PRT_API prt_status prt_instances_shader(const prt_model* model, int language, in
  * through the scene. Experimental: prt_volume_* may change with any version. */
 typedef struct prt_volume prt_volume;
 
-/* Loads the volume in a glTF file (.glb or .gltf) and writes its handle to *volume; the caller destroys it
- * with prt_volume_destroy. If loading fails, *volume is null. */
+/* Loads the volume in a .glb file, as prt_model_load, and writes its handle to *volume; the caller destroys
+ * it with prt_volume_destroy. If loading fails, *volume is null. */
 PRT_API prt_status prt_volume_load(const char* path, prt_volume** volume, prt_message* message);
 /* Loads the volume in a .glb file in memory, `size` bytes at `bytes`, and writes its handle to *volume; the
  * caller destroys it with prt_volume_destroy. If loading fails, *volume is null. The caller may free `bytes`

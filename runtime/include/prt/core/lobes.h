@@ -2,8 +2,8 @@
 
 // Transfer for skinned meshes: one to three zonal lobes per vertex, four bytes each, whose axes rotate like
 // the vertex normal (docs/math.md, section 21; Sloan, Luna and Snyder, "Local, deformable precomputed
-// radiance transfer", 2005). prt/fit/lobe_fit.h fits lobes, prt/gltf/transfer_gltf.h writes them to files;
-// this header and shaders/prt_lobes.glsl evaluate them. Experimental.
+// radiance transfer", 2005). prt/fit/lobe_fit.h fits lobes, prt/gltf/transfer_gltf.h writes them to files,
+// prt/load/model.h reads them; this header and shaders/prt_lobes.glsl evaluate them. Experimental.
 //
 //     const glm::mat3 rotation = axis_rotation(skin_matrix); // blended skin matrix of the vertex
 //     std::array<Lobe, kMaxLobes> lobes;

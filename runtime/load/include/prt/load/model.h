@@ -104,8 +104,7 @@ struct Model {
 
 /// Adds the coordinates of predictors (ClusteredReceivers::predictors) to `model.vertices`, for functions
 /// that evaluate or decode transfer on the CPU: `evaluate`, `exit_radiance`, `decode`. Vertex shaders do not
-/// need them. Uses 12 bytes per vertex and predictor. Does nothing without transfer of vertices. Throws
-/// `Error` if a vertex is farther from the origin of a predictor than its scale allows.
+/// need them. Uses 12 bytes per vertex and predictor. Does nothing without transfer of vertices.
 void add_coordinates(Model& model);
 
 /// Reads a .glb file. Throws `Error`, with the path, if the file cannot be read, is damaged or too large, is

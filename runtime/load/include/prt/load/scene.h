@@ -1,7 +1,8 @@
 #pragma once
 
 // A flattened glTF scene: vertices and triangles of the default scene in the world's frame, with materials
-// and lights, ready for baking and rendering. Stable.
+// and lights, ready for baking and rendering; skinning data of its vertices. `load_model`
+// (prt/load/model.h) and `extract_scene` (prt/gltf/gltf.h) read scenes. Stable.
 
 #include "prt/core/glm_layout.h"
 
@@ -20,9 +21,9 @@
 
 namespace prt {
 
-/// Maximum magnitude of each coordinate of a vertex in the file's world, metres. `extract_scene` rejects
-/// vertices beyond it. The limit ensures that floats can represent all quantities derived from positions; the
-/// largest is the square of twice a triangle's area, (2 sqrt(3) 1e9)^4 = 1.4e38.
+/// Maximum magnitude of each coordinate of a vertex in the file's world, metres. Functions that read scenes
+/// reject vertices beyond it. The limit ensures that floats can represent all quantities derived from
+/// positions; the largest is the square of twice a triangle's area, (2 sqrt(3) 1e9)^4 = 1.4e38.
 inline constexpr double kFarthestVertex = 1e9;
 
 /// Meaning of the alpha of a surface, as in glTF. Alpha is the product of the alphas of the base color, its
@@ -94,8 +95,8 @@ struct Emission {
     TextureUse texture; ///< sRGB; multiplies `radiance`
 };
 
-/// Material of a surface. `extract_scene` clamps factors and colors to 0..1, except Emission::radiance. The
-/// default is white, diffuse and opaque.
+/// Material of a surface. Functions that read scenes clamp factors and colors to 0..1, except
+/// Emission::radiance. The default is white, diffuse and opaque.
 struct Material {
     std::string name;                         ///< name in the file; may be empty
     glm::vec4 base_color{1};                  ///< linear Rec. 709 and alpha, 0..1
@@ -134,8 +135,8 @@ struct VertexArray {
 
 /// A primitive of a node: triangles with one material.
 struct Primitive {
-    int node = 0,             ///< index in the nodes of the GltfDocument
-        mesh = 0,             ///< index in the meshes of the GltfDocument
+    int node = 0,             ///< index in the nodes of the file; nodes that reading adds follow these
+        mesh = 0,             ///< index in the meshes of the file
         primitive = 0;        ///< index in the primitives of this mesh
     std::size_t vertices = 0; ///< index into Scene::vertex_arrays
     std::size_t material = 0; ///< index into Scene::materials
@@ -214,7 +215,7 @@ struct Skin {
 /// transforms each vertex. Without a skin, the world matrix of the node transforms all vertices.
 struct MovingVertices {
     std::size_t node = 0; ///< index in the file of the node that draws the vertices
-    int skin = -1;        ///< index into AnimatedScene::skins; -1: no skin
+    int skin = -1;        ///< index into AnimatedScene::skins of prt/gltf/animation.h; -1: no skin
     /// [vertices] positions and unit normals in the frame of the mesh: before node and joint matrices, after
     /// morph targets. A normal is 0 if it is undefined.
     std::vector<glm::vec3> positions, normals;

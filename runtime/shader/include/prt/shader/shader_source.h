@@ -133,9 +133,10 @@ inline constexpr int kMaxInstancedWeights = 24;
 
 /// Returns the lines of #define for shaders/prt_instances.glsl: those of `relight_defines` for the same
 /// arguments, and PRT_INSTANCES. `seen_from` 0: the shader gets positions relative to the origin of
-/// InstancedModel::stored. `seen_from` = this origin: the shader gets positions in the mesh's frame, as in
-/// the file. `relit_instances` must get the same `seen_from`. Throws the errors of `relight_defines`, and
-/// `Error` for ConstantSource::block and for more than kMaxInstancedWeights unpacked weights.
+/// the stored scene (Model::scene, InstancedModel::stored). `seen_from` = this origin: the shader gets
+/// positions in the mesh's frame, as in the file. `relit_instances` must get the same `seen_from`. Throws the
+/// errors of `relight_defines`, and `Error` for ConstantSource::block and for more than kMaxInstancedWeights
+/// unpacked weights.
 std::string instance_defines(const ClusteredTransfer& transfer,
                              ConstantSource constants = ConstantSource::buffer,
                              ShaderLanguage language = ShaderLanguage::glsl450,
