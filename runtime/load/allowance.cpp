@@ -30,14 +30,14 @@ void check_allowed(double bytes, std::size_t file_bytes, const std::string& what
         throw Error(excess(bytes, file_bytes, what));
 }
 
-void check_scene_allowed(double bytes, const GltfData& contents, const std::string& what) {
-    const double limit = contents.scene_limit;
-    if (bytes <= (limit > 0 ? limit : allowed(contents.file_bytes)))
+void check_scene_allowed(double bytes, const GltfData& data, const std::string& what) {
+    const double limit = data.scene_limit;
+    if (bytes <= (limit > 0 ? limit : allowed(data.file_bytes)))
         return;
     if (limit > 0)
         throw Error(what + " would need " + megabytes(bytes) + " of memory; the limit is " +
                     megabytes(limit) + ", raise it with --memory-limit");
-    throw Error(excess(bytes, contents.file_bytes, what) + "; raise it with --memory-limit");
+    throw Error(excess(bytes, data.file_bytes, what) + "; raise it with --memory-limit");
 }
 
 } // namespace prt

@@ -16,6 +16,6 @@ void check_allowed(double bytes, std::size_t file_bytes, const std::string& what
 
 /// Throws `Error` if `what`, memory that a scene needs for repeated data, exceeds GltfOptions::scene_limit,
 /// or, if that is 0, the limit of `check_allowed`.
-void check_scene_allowed(double bytes, const GltfData& contents, const std::string& what);
+void check_scene_allowed(double bytes, const GltfData& data, const std::string& what);
 
 } // namespace prt

@@ -36,16 +36,15 @@ void check_primitive(const GltfModel& model, const GltfPrimitive& primitive) {
 
 } // namespace
 
-void check_data(const GltfData& contents) {
-    const GltfModel& model = contents.model;
+void check_data(const GltfData& data) {
+    const GltfModel& model = data.model;
     for (std::size_t v = 0; v < model.bufferViews.size(); ++v)
         buffer_view_bytes(model, static_cast<int>(v));
     for (std::size_t a = 0; a < model.accessors.size(); ++a) {
         const std::size_t bytes = check_accessor(model, static_cast<int>(a));
         if (model.accessors[a].bufferView < 0) // implicit zeros without data
             check_allowed(static_cast<double>(model.accessors[a].count) * static_cast<double>(bytes),
-                          contents.file_bytes,
-                          "accessor " + std::to_string(a) + ", which has no buffer view,");
+                          data.file_bytes, "accessor " + std::to_string(a) + ", which has no buffer view,");
     }
     for (std::size_t m = 0; m < model.meshes.size(); ++m)
         for (std::size_t p = 0; p < model.meshes[m].primitives.size(); ++p)

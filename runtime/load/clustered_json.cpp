@@ -16,14 +16,14 @@ namespace {
 
 /// Throws if the rows, the rows for constants, and the code that they are decoded from would need too much
 /// memory: a row of zeros takes four bits, and none without axes.
-void check_rows(const GltfData& contents, std::size_t rows, std::size_t axes, std::size_t dimension) {
+void check_rows(const GltfData& data, std::size_t rows, std::size_t axes, std::size_t dimension) {
     const auto values = static_cast<double>(rows) * static_cast<double>(axes + 3 * dimension) +
                         static_cast<double>(axes) * static_cast<double>(dimension);
-    check_allowed(values * sizeof(float), contents.file_bytes, "its bases");
+    check_allowed(values * sizeof(float), data.file_bytes, "its bases");
 }
 
 /// Reads the step of all axes, or the steps of groups of axes in each cluster.
-void read_steps(const GltfData& contents, const Json& json, CodedBases& coded) {
+void read_steps(const GltfData& data, const Json& json, CodedBases& coded) {
     const bool many = json.contains("steps");
     const Json& step = many ? json["steps"].at("least") : json.at("step");
     coded.step = step.is_number() ? step.get<float>() : -1.0f;
@@ -34,7 +34,7 @@ void read_steps(const GltfData& contents, const Json& json, CodedBases& coded) {
         return;
     if (json.contains("step"))
         throw Error("the bases have both \"step\" and \"steps\"");
-    coded.exponents.code = read_row_code(contents, json["steps"]);
+    coded.exponents.code = read_row_code(data, json["steps"]);
     for (const Json& axes : json["steps"].at("axes"))
         coded.exponents.axes.push_back(whole_number(axes, "the number of axes", 0, 1 << 16));
     if (coded.exponents.empty())
@@ -43,28 +43,28 @@ void read_steps(const GltfData& contents, const Json& json, CodedBases& coded) {
 
 } // namespace
 
-void read_bases(const GltfData& contents, const Json& json, ClusteredBases& bases) {
+void read_bases(const GltfData& data, const Json& json, ClusteredBases& bases) {
     const std::size_t rows = bases.first_rows().back(), dimension = bases.dimension();
     if (!json.contains("values")) {
-        bases.rows = read_float_view(contents, json, rows * dimension, kMaxTransfer, "the bases");
+        bases.rows = read_float_view(data, json, rows * dimension, kMaxTransfer, "the bases");
         return;
     }
     constexpr float kAnyFinite = std::numeric_limits<float>::max(); // small steps may have large scales
     CodedBases& coded = bases.coded;
-    coded.origin = read_float_view(contents, json.at("origin"), dimension, kMaxTransfer, "the origin");
+    coded.origin = read_float_view(data, json.at("origin"), dimension, kMaxTransfer, "the origin");
     if (json.contains("units"))
-        coded.units = read_float_view(contents, json["units"], dimension, kAnyFinite, "the units");
-    coded.axes = read_row_code(contents, json.at("axes"));
-    coded.values = read_row_code(contents, json.at("values"));
+        coded.units = read_float_view(data, json["units"], dimension, kAnyFinite, "the units");
+    coded.axes = read_row_code(data, json.at("axes"));
+    coded.values = read_row_code(data, json.at("values"));
     const std::size_t axes = coded.values.drops.size();
-    coded.scales = read_float_view(contents, json.at("scales"), axes, kAnyFinite, "the scales");
-    read_steps(contents, json, coded);
-    check_rows(contents, rows, axes, dimension);
+    coded.scales = read_float_view(data, json.at("scales"), axes, kAnyFinite, "the scales");
+    read_steps(data, json, coded);
+    check_rows(data, rows, axes, dimension);
     bases.rows = decode_bases(coded, bases.components, bases.predictor_rows());
     check_magnitudes(bases.rows, kMaxTransfer, "the decoded bases");
 }
 
-void read_packing(const GltfData& contents, const Json& json, ClusteredTransfer& transfer) {
+void read_packing(const GltfData& data, const Json& json, ClusteredTransfer& transfer) {
     ClusteredBases& bases = transfer.bases;
     ClusteredReceivers& receivers = transfer.receivers;
     receivers.format = WeightFormat::packed;
@@ -72,7 +72,7 @@ void read_packing(const GltfData& contents, const Json& json, ClusteredTransfer&
     if (bases.clusters() > std::size_t{1} << receivers.cluster_bits)
         throw Error(std::to_string(bases.clusters()) + " clusters do not fit into " +
                     std::to_string(receivers.cluster_bits) + " bits");
-    BitReader reader(buffer_view_bytes(contents.model, json.at("bufferView").get<int>()));
+    BitReader reader(buffer_view_bytes(data.model, json.at("bufferView").get<int>()));
     const std::size_t directions = bases.first_rows().back() - bases.clusters() * bases.fixed_rows();
     std::size_t most = 0;
     for (const int components : bases.components) {

@@ -13,9 +13,9 @@ inline constexpr int kClusteredVersion = 8;
 ClusteredBases read_clusters_of(const Json& extension, std::size_t outputs = 1);
 
 /// Reads the rows of `bases`, whose components are known. Throws `Error` if they are damaged.
-void read_bases(const GltfData& contents, const Json& json, ClusteredBases& bases);
+void read_bases(const GltfData& data, const Json& json, ClusteredBases& bases);
 
 /// Reads the bit widths of weights, and computes the number of words per receiver. Throws `Error`.
-void read_packing(const GltfData& contents, const Json& json, ClusteredTransfer& transfer);
+void read_packing(const GltfData& data, const Json& json, ClusteredTransfer& transfer);
 
 } // namespace prt

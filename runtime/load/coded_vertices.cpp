@@ -29,16 +29,16 @@ std::optional<std::size_t> first_vertex(const Json& primitive) {
 }
 
 /// Decodes the words of all vertices.
-std::vector<std::uint32_t> decoded(const GltfData& contents, const Json& json, const WordLayout& layout) {
+std::vector<std::uint32_t> decoded(const GltfData& data, const Json& json, const WordLayout& layout) {
     const auto vertices = static_cast<std::size_t>(whole_number(json.at("vertices"), "vertices", 1, INT_MAX));
-    check_allowed(static_cast<double>(vertices) * (kBytesPerVertex + 16.0 * layout.words),
-                  contents.file_bytes, "its coded words");
+    check_allowed(static_cast<double>(vertices) * (kBytesPerVertex + 16.0 * layout.words), data.file_bytes,
+                  "its coded words");
     WordMesh mesh(vertices);
-    for_each_pair(contents, [&](const Json& primitive, const GltfPrimitive& model) {
+    for_each_pair(data, [&](const Json& primitive, const GltfPrimitive& model) {
         if (const auto first = first_vertex(primitive))
-            mesh.add(contents.model, model, *first, vertex_count(contents.model, model));
+            mesh.add(data.model, model, *first, vertex_count(data.model, model));
     });
-    const auto bytes = buffer_view_bytes(contents.model, json.at("bufferView").get<int>());
+    const auto bytes = buffer_view_bytes(data.model, json.at("bufferView").get<int>());
     const Json& frequencies = json.at("frequencies");
     const auto split = static_cast<std::size_t>(
         whole_number(frequencies.at("byteLength"), "the length of the frequencies", 0, INT_MAX));
@@ -54,29 +54,29 @@ std::vector<std::uint32_t> decoded(const GltfData& contents, const Json& json, c
 }
 
 /// Makes `words` [vertices][stride / 4] the contents of `view`, in a new buffer.
-void replace_view(GltfData& contents, std::size_t view, std::span<const std::uint32_t> words,
+void replace_view(GltfData& data, std::size_t view, std::span<const std::uint32_t> words,
                   std::size_t stride) {
-    const std::size_t length = words.size_bytes(), buffer = contents.model.buffers.size();
+    const std::size_t length = words.size_bytes(), buffer = data.model.buffers.size();
     const auto* begin = reinterpret_cast<const unsigned char*>(words.data());
-    contents.model.buffers.push_back({{begin, begin + length}});
-    contents.json["bufferViews"].at(view) = {{"buffer", buffer},
-                                             {"byteOffset", 0},
-                                             {"byteLength", length},
-                                             {"byteStride", stride},
-                                             {"target", kArrayBuffer}};
-    contents.model.bufferViews.at(view) = {static_cast<int>(buffer), 0, length, stride};
+    data.model.buffers.push_back({{begin, begin + length}});
+    data.json["bufferViews"].at(view) = {{"buffer", buffer},
+                                         {"byteOffset", 0},
+                                         {"byteLength", length},
+                                         {"byteStride", stride},
+                                         {"target", kArrayBuffer}};
+    data.model.bufferViews.at(view) = {static_cast<int>(buffer), 0, length, stride};
 }
 
 /// Adds an accessor to the JSON and the model: one word of `count` vertices.
-void add_words(GltfData& contents, std::size_t view, std::size_t offset, std::size_t count) {
+void add_words(GltfData& data, std::size_t view, std::size_t offset, std::size_t count) {
     GltfAccessor accessor;
     accessor.bufferView = static_cast<int>(view);
     accessor.byteOffset = offset;
     accessor.componentType = kUnsignedByte;
     accessor.count = count;
     accessor.components = 4;
-    contents.model.accessors.push_back(accessor);
-    member(contents.json, "accessors", Json::value_t::array)
+    data.model.accessors.push_back(accessor);
+    member(data.json, "accessors", Json::value_t::array)
         .push_back({{"bufferView", view},
                     {"byteOffset", offset},
                     {"componentType", accessor.componentType},
@@ -85,17 +85,17 @@ void add_words(GltfData& contents, std::size_t view, std::size_t offset, std::si
 }
 
 /// Adds the attributes of its coded words, stored in `view`, to every primitive.
-void add_attributes(GltfData& contents, std::size_t view, std::size_t words) {
+void add_attributes(GltfData& data, std::size_t view, std::size_t words) {
     std::map<std::pair<std::size_t, std::size_t>, std::size_t> accessors; // accessors of the first word
-    for_each_pair(contents, [&](Json& primitive, GltfPrimitive& model) {
+    for_each_pair(data, [&](Json& primitive, GltfPrimitive& model) {
         const auto first = first_vertex(primitive);
         if (!first)
             return;
-        const std::size_t count = vertex_count(contents.model, model);
-        const auto [entry, is_new] = accessors.try_emplace({*first, count}, contents.model.accessors.size());
+        const std::size_t count = vertex_count(data.model, model);
+        const auto [entry, is_new] = accessors.try_emplace({*first, count}, data.model.accessors.size());
         for (std::size_t w = 0; w < words; ++w) {
             if (is_new)
-                add_words(contents, view, 4 * (*first * words + w), count);
+                add_words(data, view, 4 * (*first * words + w), count);
             primitive["attributes"][weights_name(w)] = entry->second + w;
             model.attributes[weights_name(w)] = static_cast<int>(entry->second + w);
         }
@@ -105,10 +105,10 @@ void add_attributes(GltfData& contents, std::size_t view, std::size_t words) {
 
 } // namespace
 
-WordLayout word_layout(const GltfData& contents, const Json& extension) {
+WordLayout word_layout(const GltfData& data, const Json& extension) {
     ClusteredTransfer transfer;
     transfer.bases = read_clusters_of(extension);
-    read_packing(contents, extension.at("packing"), transfer);
+    read_packing(data, extension.at("packing"), transfer);
     return {cluster_layouts(transfer.bases), transfer.receivers.cluster_bits, transfer.receivers.words};
 }
 
@@ -133,17 +133,17 @@ void WordMesh::add(const GltfModel& model, const GltfPrimitive& primitive, std::
             triangles_.push_back(static_cast<std::uint32_t>(first) + t[i]);
 }
 
-bool decode_vertices(GltfData& contents) {
-    const Json* extension = find_extension(contents, kClusteredExtension, kClusteredVersion);
+bool decode_vertices(GltfData& data) {
+    const Json* extension = find_extension(data, kClusteredExtension, kClusteredVersion);
     if (!extension || !extension->contains("packing") || !extension->at("packing").contains("words"))
         return false;
     const Json json = extension->at("packing")["words"];
-    const WordLayout layout = word_layout(contents, *extension);
+    const WordLayout layout = word_layout(data, *extension);
     const auto view = json.at("bufferView").get<std::size_t>();
     const auto words = static_cast<std::size_t>(layout.words);
-    replace_view(contents, view, decoded(contents, json, layout), 4 * words);
-    add_attributes(contents, view, words);
-    contents.json["extensions"][kClusteredExtension]["packing"].erase("words");
+    replace_view(data, view, decoded(data, json, layout), 4 * words);
+    add_attributes(data, view, words);
+    data.json["extensions"][kClusteredExtension]["packing"].erase("words");
     return true;
 }
 

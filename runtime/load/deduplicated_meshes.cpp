@@ -12,21 +12,21 @@ namespace prt {
 namespace {
 
 /// Adds a root to the extracted scene, in the JSON and in the model.
-void add_root(GltfData& contents, std::size_t node) {
-    if (contents.model.scenes.empty())
+void add_root(GltfData& data, std::size_t node) {
+    if (data.model.scenes.empty())
         return; // all nodes without parents are roots
     const std::size_t scene =
-        contents.model.defaultScene >= 0 ? static_cast<std::size_t>(contents.model.defaultScene) : 0;
-    member(contents.json["scenes"].at(scene), "nodes", Json::value_t::array).push_back(node);
-    contents.model.scenes.at(scene).push_back(static_cast<int>(node));
+        data.model.defaultScene >= 0 ? static_cast<std::size_t>(data.model.defaultScene) : 0;
+    member(data.json["scenes"].at(scene), "nodes", Json::value_t::array).push_back(node);
+    data.model.scenes.at(scene).push_back(static_cast<int>(node));
 }
 
 } // namespace
 
-void deduplicate_meshes(GltfData& contents) {
-    if (!contents.json.contains("nodes"))
+void deduplicate_meshes(GltfData& data) {
+    if (!data.json.contains("nodes"))
         return;
-    Json& nodes = contents.json["nodes"];
+    Json& nodes = data.json["nodes"];
     std::map<std::size_t, std::size_t> of_mesh; // index in `separate`
     for (std::size_t n = 0; n < nodes.size(); ++n) {
         if (!extension_of(nodes[n], kInstancesExtension))
@@ -34,18 +34,18 @@ void deduplicate_meshes(GltfData& contents) {
         if (!nodes[n].contains("mesh"))
             throw Error("node " + std::to_string(n) + " has " + kInstancesExtension + ", but no mesh");
         const auto mesh = nodes[n]["mesh"].get<std::size_t>();
-        const auto [found, is_new] = of_mesh.try_emplace(mesh, contents.separate.size());
+        const auto [found, is_new] = of_mesh.try_emplace(mesh, data.separate.size());
         if (is_new)
-            contents.separate.push_back({mesh, {}}); // stores the mesh until its proxy node has an index
-        contents.separate[found->second].drawers.push_back(n);
+            data.separate.push_back({mesh, {}}); // stores the mesh until its proxy node has an index
+        data.separate[found->second].drawers.push_back(n);
         nodes[n].erase("mesh");
-        contents.model.nodes[n].mesh = -1;
+        data.model.nodes[n].mesh = -1;
     }
-    for (DeduplicatedMesh& separate : contents.separate) {
+    for (DeduplicatedMesh& separate : data.separate) {
         const std::size_t mesh = std::exchange(separate.stand_in, nodes.size());
         nodes.push_back({{"mesh", mesh}});
-        contents.model.nodes.emplace_back().mesh = static_cast<int>(mesh);
-        add_root(contents, separate.stand_in);
+        data.model.nodes.emplace_back().mesh = static_cast<int>(mesh);
+        add_root(data, separate.stand_in);
     }
 }
 

@@ -8,9 +8,9 @@
 namespace prt {
 
 /// Moves the meshes with PRTKIT_instances from their nodes to one new root node each, in the JSON and the
-/// model of `contents`, while the document is in memory. Throws `Error` if a node with the extension has no
+/// model of `data`, while the document is in memory. Throws `Error` if a node with the extension has no
 /// mesh.
-void deduplicate_meshes(GltfData& contents);
+void deduplicate_meshes(GltfData& data);
 
 /// Undoes `deduplicate_meshes` in `json`, for writing.
 void put_meshes_back(const std::vector<DeduplicatedMesh>& separate, Json& json);

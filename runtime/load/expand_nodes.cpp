@@ -53,39 +53,38 @@ std::vector<float> read_attribute(const GltfModel& model, int index, const Attri
     return values;
 }
 
-std::vector<Attribute> read_attributes(const GltfData& contents, const Json& references, std::size_t& count) {
+std::vector<Attribute> read_attributes(const GltfData& data, const Json& references, std::size_t& count) {
     std::vector<Attribute> attributes = {{"TRANSLATION", "translation", 3, &GltfNode::translation},
                                          {"ROTATION", "rotation", 4, &GltfNode::rotation},
                                          {"SCALE", "scale", 3, &GltfNode::scale}};
     bool first = true;
     for (const auto& item : references.items()) {
         const auto index = item.value().get<std::size_t>();
-        if (index >= contents.model.accessors.size())
+        if (index >= data.model.accessors.size())
             throw Error("accessor " + std::to_string(index) + " of its instances does not exist");
-        if (!std::exchange(first, false) && contents.model.accessors[index].count != count)
+        if (!std::exchange(first, false) && data.model.accessors[index].count != count)
             throw Error("the attributes of its instances have different numbers of elements");
-        count = contents.model.accessors[index].count;
+        count = data.model.accessors[index].count;
     }
     if (count > kMaxInstances)
         throw Error("has " + std::to_string(count) + " instances; at most " + std::to_string(kMaxInstances) +
                     " are supported");
     for (Attribute& attribute : attributes)
         if (references.contains(attribute.name))
-            attribute.values =
-                read_attribute(contents.model, references[attribute.name].get<int>(), attribute);
+            attribute.values = read_attribute(data.model, references[attribute.name].get<int>(), attribute);
     return attributes;
 }
 
 /// Moves the mesh of node `n` to one new child per instance; returns their number. `bytes` is the memory of
 /// previous instances.
-std::size_t expand(GltfData& contents, std::size_t n, double& bytes) {
-    Json& nodes = contents.json["nodes"];
+std::size_t expand(GltfData& data, std::size_t n, double& bytes) {
+    Json& nodes = data.json["nodes"];
     std::size_t count = 0;
     const auto attributes =
-        read_attributes(contents, nodes[n]["extensions"][kInstancingExtension].at("attributes"), count);
+        read_attributes(data, nodes[n]["extensions"][kInstancingExtension].at("attributes"), count);
     bytes += static_cast<double>(count) *
-             (kNode + kWeight * static_cast<double>(contents.model.nodes[n].weights.size()));
-    check_scene_allowed(bytes, contents, "its instances");
+             (kNode + kWeight * static_cast<double>(data.model.nodes[n].weights.size()));
+    check_scene_allowed(bytes, data, "its instances");
     ExpandedNode expanded{n, nodes.size(), count, std::move(nodes[n]["extensions"][kInstancingExtension])};
     Json shared = Json::object(); // extension of the first instance
     if (const Json* found = extension_of(nodes[n], kInstancesExtension))
@@ -106,9 +105,9 @@ std::size_t expand(GltfData& contents, std::size_t n, double& bytes) {
             nodes[n].erase(key);
         }
     GltfNode common_model;
-    common_model.mesh = std::exchange(contents.model.nodes[n].mesh, -1);
-    common_model.skin = std::exchange(contents.model.nodes[n].skin, -1);
-    common_model.weights = std::exchange(contents.model.nodes[n].weights, {});
+    common_model.mesh = std::exchange(data.model.nodes[n].mesh, -1);
+    common_model.skin = std::exchange(data.model.nodes[n].skin, -1);
+    common_model.weights = std::exchange(data.model.nodes[n].weights, {});
     for (std::size_t i = 0; i < count; ++i) {
         Json child = common;
         GltfNode model = common_model;
@@ -124,30 +123,30 @@ std::size_t expand(GltfData& contents, std::size_t n, double& bytes) {
             extensions_of(child)[kInstancesExtension] = shared;
         }
         member(nodes[n], "children", Json::value_t::array).push_back(nodes.size());
-        contents.model.nodes[n].children.push_back(static_cast<int>(nodes.size()));
+        data.model.nodes[n].children.push_back(static_cast<int>(nodes.size()));
         nodes.push_back(std::move(child));
-        contents.model.nodes.push_back(std::move(model));
+        data.model.nodes.push_back(std::move(model));
     }
-    contents.expanded.push_back(std::move(expanded));
+    data.expanded.push_back(std::move(expanded));
     return count;
 }
 
 } // namespace
 
-void expand_instances(GltfData& contents) {
+void expand_instances(GltfData& data) {
     std::size_t instances = 0;
     double bytes = 0;
     bool found = false, kept = false;
-    const std::size_t before = contents.model.nodes.size();
+    const std::size_t before = data.model.nodes.size();
     for (std::size_t n = 0; n < before; ++n) {
-        if (!extension_of(contents.json["nodes"][n], kInstancingExtension))
+        if (!extension_of(data.json["nodes"][n], kInstancingExtension))
             continue;
-        if (!contents.separate.empty() && extension_of(contents.json["nodes"][n], kInstancesExtension)) {
+        if (!data.separate.empty() && extension_of(data.json["nodes"][n], kInstancesExtension)) {
             kept = true;
             continue;
         }
         try {
-            instances += expand(contents, n, bytes);
+            instances += expand(data, n, bytes);
             found = true;
         } catch (const std::exception& error) { // errors of prtkit and of the JSON library
             throw Error("node " + std::to_string(n) + ": " + in_plain_words(error));
@@ -158,9 +157,9 @@ void expand_instances(GltfData& contents) {
     if (!found)
         return;
     if (!kept)
-        drop_extension(contents.json, kInstancingExtension);
-    contents.notices.push_back(counted(instances, "instance", "instances") + " of EXT_mesh_gpu_instancing " +
-                               (instances == 1 ? "becomes a separate node" : "become separate nodes"));
+        drop_extension(data.json, kInstancingExtension);
+    data.notices.push_back(counted(instances, "instance", "instances") + " of EXT_mesh_gpu_instancing " +
+                           (instances == 1 ? "becomes a separate node" : "become separate nodes"));
 }
 
 } // namespace prt

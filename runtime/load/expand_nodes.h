@@ -6,9 +6,9 @@
 
 namespace prt {
 
-/// Converts every instance to a separate child node, in the JSON and the model of `contents`, and adds a
+/// Converts every instance to a separate child node, in the JSON and the model of `data`, and adds a
 /// notice. This is needed because each instance is lit differently, and transfer belongs to a node's mesh.
 /// Throws `Error` with the node if its attributes are invalid.
-void expand_instances(GltfData& contents);
+void expand_instances(GltfData& data);
 
 } // namespace prt

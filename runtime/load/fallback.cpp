@@ -18,11 +18,11 @@ bool is_unlit_for_fallback(const Json& material) {
 }
 
 /// Makes materials lit again that were unlit only for the fallback, and returns their indices.
-std::set<int> lit_again(GltfData& contents) {
+std::set<int> lit_again(GltfData& data) {
     std::set<int> lit;
-    if (!contents.json.contains("materials"))
+    if (!data.json.contains("materials"))
         return lit;
-    Json& materials = contents.json["materials"];
+    Json& materials = data.json["materials"];
     for (std::size_t m = 0; m < materials.size(); ++m) {
         if (!is_unlit_for_fallback(materials[m]))
             continue;
@@ -33,7 +33,7 @@ std::set<int> lit_again(GltfData& contents) {
         lit.insert(static_cast<int>(m));
     }
     if (std::ranges::none_of(materials, is_unlit))
-        drop_extension(contents.json, kUnlitExtension);
+        drop_extension(data.json, kUnlitExtension);
     return lit;
 }
 
@@ -65,20 +65,20 @@ bool is_unlit(const Json& material) {
     return extension_of(material, kUnlitExtension) != nullptr;
 }
 
-std::set<int> set_fallback_aside(GltfData& contents) {
-    const Json* extension = extension_of(contents.json, kClusteredExtension);
+std::set<int> set_fallback_aside(GltfData& data) {
+    const Json* extension = extension_of(data.json, kClusteredExtension);
     if (!extension || !extension->contains("fallback"))
         return {};
     const Json& exposure = extension->at("fallback").at("exposure");
     if (!exposure.is_number() || !(exposure.get<double>() > 0))
         throw Error("the exposure of the fallback is not a number greater than 0");
-    contents.json["extensions"][kClusteredExtension].erase("fallback");
-    const std::set<int> lit = lit_again(contents);
-    for (std::size_t m = 0; m < contents.model.meshes.size(); ++m)
-        for (std::size_t p = 0; p < contents.model.meshes[m].primitives.size(); ++p) {
-            Json& primitive = contents.json.at("meshes").at(m).at("primitives").at(p);
+    data.json["extensions"][kClusteredExtension].erase("fallback");
+    const std::set<int> lit = lit_again(data);
+    for (std::size_t m = 0; m < data.model.meshes.size(); ++m)
+        for (std::size_t p = 0; p < data.model.meshes[m].primitives.size(); ++p) {
+            Json& primitive = data.json.at("meshes").at(m).at("primitives").at(p);
             if (lit.contains(material_of(primitive)) && primitive.contains("attributes"))
-                exchange_colors(primitive["attributes"], contents.model.meshes[m].primitives[p].attributes);
+                exchange_colors(primitive["attributes"], data.model.meshes[m].primitives[p].attributes);
         }
     return lit;
 }

@@ -22,8 +22,8 @@ struct FoundLevels {
 
 class LevelFinder {
 public:
-    LevelFinder(const GltfData& contents, const NodeTree& tree)
-        : contents_(contents), model_(contents.model), tree_(tree), parent_(model_.nodes.size(), -1),
+    LevelFinder(const GltfData& data, const NodeTree& tree)
+        : data_(data), model_(data.model), tree_(tree), parent_(model_.nodes.size(), -1),
           in_scene_(model_.nodes.size(), false), level_of_(model_.nodes.size(), -1) {
         for (const NodeTree::Entry& position : tree.order) {
             parent_[at(position.node)] = position.parent;
@@ -44,7 +44,7 @@ private:
     void find_listed() {
         std::vector<FoundLevels> listed;
         for (std::size_t n = 0; n < model_.nodes.size(); ++n)
-            if (const Json* extension = extension_of(contents_.json["nodes"][n], kLodExtension))
+            if (const Json* extension = extension_of(data_.json["nodes"][n], kLodExtension))
                 listed.push_back({static_cast<int>(n), false, ids_of(static_cast<int>(n), *extension)});
         for (const FoundLevels& levels : listed)
             for (const int level : levels.coarser)
@@ -134,7 +134,7 @@ private:
         });
     }
 
-    const GltfData& contents_;
+    const GltfData& data_;
     const GltfModel& model_;
     const NodeTree& tree_;
     std::vector<int> parent_;
@@ -147,8 +147,8 @@ private:
 /// Traverses the descendants of nodes, inside and outside the scene.
 class LevelPlacer {
 public:
-    LevelPlacer(const GltfData& contents, const NodeTree& tree, std::span<const FoundLevels> found)
-        : model_(contents.model), tree_(tree), coarser_(model_.nodes.size(), false),
+    LevelPlacer(const GltfData& data, const NodeTree& tree, std::span<const FoundLevels> found)
+        : model_(data.model), tree_(tree), coarser_(model_.nodes.size(), false),
           seen_(model_.nodes.size(), false), parent_(model_.nodes.size(), -1) {
         for (const FoundLevels& levels : found)
             for (const int level : levels.coarser)
@@ -239,11 +239,11 @@ std::string node_name(const GltfModel& model, int node) {
     return "node " + std::to_string(node) + (name.empty() ? "" : " '" + printable(name) + "'");
 }
 
-LevelNodes level_nodes(const GltfData& contents) {
-    const NodeTree tree = node_tree(contents.model);
-    LevelFinder finder(contents, tree);
+LevelNodes level_nodes(const GltfData& data) {
+    const NodeTree tree = node_tree(data.model);
+    LevelFinder finder(data, tree);
     const std::vector<FoundLevels> found = finder.find();
-    LevelNodes nodes = LevelPlacer(contents, tree, found).place(found);
+    LevelNodes nodes = LevelPlacer(data, tree, found).place(found);
     nodes.notices = finder.take_notices();
     return nodes;
 }

@@ -35,7 +35,7 @@ struct LevelNodes {
 
 /// Finds levels. Throws `Error` if the hierarchy is not a tree, and if MSFT_lod references missing nodes,
 /// levels of levels, ancestors of the level, or a node twice.
-LevelNodes level_nodes(const GltfData& contents);
+LevelNodes level_nodes(const GltfData& data);
 
 /// Returns "node 3 'Rock'".
 std::string node_name(const GltfModel& model, int node);

@@ -12,29 +12,29 @@
 namespace prt {
 namespace {
 
-void read_lobe_words(const GltfData& contents, const Json& attributes, const VertexArray& vertices,
+void read_lobe_words(const GltfData& data, const Json& attributes, const VertexArray& vertices,
                      LobeModel& model) {
     for (std::size_t k = 0; k < model.lobes; ++k) {
         const std::string name = lobe_name(k);
         const int accessor = attributes.at(name).get<int>();
-        const auto& description = get_accessor(contents.model, accessor);
+        const auto& description = get_accessor(data.model, accessor);
         if (description.components != 4 || description.componentType != kUnsignedByte ||
             description.count != vertices.size())
             throw Error(name + " must have four unsigned bytes for each of " +
                         std::to_string(vertices.size()) + " vertices");
-        const std::vector<std::byte> bytes = read_elements(contents.model, accessor);
+        const std::vector<std::byte> bytes = read_elements(data.model, accessor);
         for (std::size_t v = 0; v < vertices.size(); ++v)
             std::memcpy(&model.words[(vertices.first_receiver + v) * model.lobes + k],
                         &bytes[v * sizeof(LobeWord)], sizeof(LobeWord));
     }
 }
 
-void read_profiles(const GltfData& contents, const Json& json, LobeModel& model) {
+void read_profiles(const GltfData& data, const Json& json, LobeModel& model) {
     const auto order = static_cast<std::size_t>(model.order);
     model.profiles.resize(static_cast<std::size_t>(
         whole_number(json.at("count"), "the number of profiles", 1, static_cast<int>(kMaxProfiles))));
     const std::vector<float> gains =
-        read_float_view(contents, json, model.profiles.size() * order, kMaxGain, "the profiles of lobes");
+        read_float_view(data, json, model.profiles.size() * order, kMaxGain, "the profiles of lobes");
     for (std::size_t p = 0; p < model.profiles.size(); ++p)
         std::copy_n(gains.begin() + static_cast<std::ptrdiff_t>(p * order), order, model.profiles[p].begin());
 }
@@ -59,8 +59,8 @@ std::string lobe_name(std::size_t lobe) {
     return "_PRT_LOBE_" + std::to_string(lobe);
 }
 
-std::optional<StoredLobes> read_lobes(const GltfData& contents, const Scene& scene) {
-    const Json* extension = find_extension(contents, kLobeExtension, kLobeVersion);
+std::optional<StoredLobes> read_lobes(const GltfData& data, const Scene& scene) {
+    const Json* extension = find_extension(data, kLobeExtension, kLobeVersion);
     if (!extension)
         return std::nullopt;
     StoredLobes stored;
@@ -68,22 +68,22 @@ std::optional<StoredLobes> read_lobes(const GltfData& contents, const Scene& sce
     model.order = whole_number(extension->at("order"), "the order of the lobes", 2, kMaxLobeOrder);
     model.lobes = static_cast<std::size_t>(
         whole_number(extension->at("lobes"), "lobes", 1, static_cast<int>(kMaxLobes)));
-    read_profiles(contents, extension->at("profiles"), model);
+    read_profiles(data, extension->at("profiles"), model);
     stored.record = read_lobe_record(extension->value("bake", Json::object()));
     check_allowed(static_cast<double>(scene.receivers()) *
                       static_cast<double>(model.lobes * sizeof(LobeWord)),
-                  contents.file_bytes, "its lobes");
+                  data.file_bytes, "its lobes");
     model.words.resize(scene.receivers() * model.lobes);
     TransferOfVertices read;
     for (const Primitive& primitive : scene.primitives) {
-        const Json& attributes = primitive_json(contents, primitive).at("attributes");
+        const Json& attributes = primitive_json(data, primitive).at("attributes");
         Json own = Json::object();
         for (std::size_t k = 0; k < model.lobes; ++k)
             own[lobe_name(k)] = attributes.value(lobe_name(k), Json());
         if (!read.is_new(primitive, own))
             continue;
         try {
-            read_lobe_words(contents, attributes, scene.vertex_arrays[primitive.vertices], model);
+            read_lobe_words(data, attributes, scene.vertex_arrays[primitive.vertices], model);
         } catch (const std::exception& error) {
             throw Error(primitive_name(primitive) + ": " + in_plain_words(error));
         }

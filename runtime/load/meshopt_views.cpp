@@ -98,48 +98,48 @@ bool has_meshopt_views(const Json& json) {
            });
 }
 
-void decompress_views(GltfData& contents) {
-    Json& views = contents.json["bufferViews"];
+void decompress_views(GltfData& data) {
+    Json& views = data.json["bufferViews"];
     double total = 0;
     for (std::size_t v = 0; v < views.size(); ++v) {
         const Json* extension = extension_of(views[v], kMeshoptExtension);
         if (!extension)
             continue;
         try {
-            const auto view_bytes = buffer_view_bytes(contents.model, static_cast<int>(v));
+            const auto view_bytes = buffer_view_bytes(data.model, static_cast<int>(v));
             const std::span source(reinterpret_cast<const unsigned char*>(view_bytes.data()),
                                    view_bytes.size());
             const MeshoptCode code = read_code(*extension);
             total += static_cast<double>(code.count) * static_cast<double>(code.stride);
-            check_allowed(2 * total, contents.file_bytes,
+            check_allowed(2 * total, data.file_bytes,
                           "and the compressed buffer views before it"); // also while joined
             GltfBuffer buffer;
             buffer.data = decompressed(code, source);
             const auto length = views[v].at("byteLength").get<std::size_t>();
             if (length > buffer.data.size())
                 throw Error("has fewer bytes than its byteLength declares");
-            GltfBufferView& view = contents.model.bufferViews[v];
-            view.buffer = static_cast<int>(contents.model.buffers.size());
+            GltfBufferView& view = data.model.bufferViews[v];
+            view.buffer = static_cast<int>(data.model.buffers.size());
             view.byteOffset = 0;
             view.byteLength = length;
             view.byteStride = views[v].value("byteStride", std::size_t{0});
-            views[v]["buffer"] = contents.model.buffers.size();
+            views[v]["buffer"] = data.model.buffers.size();
             views[v]["byteOffset"] = 0;
-            contents.model.buffers.push_back(std::move(buffer));
+            data.model.buffers.push_back(std::move(buffer));
             erase_extension(views[v], kMeshoptExtension);
         } catch (const std::exception& error) {
             throw Error("compressed buffer view " + std::to_string(v) + " " + in_plain_words(error));
         }
     }
     // The compressed data is no longer needed.
-    std::vector<bool> used(contents.model.buffers.size(), false);
-    for (const GltfBufferView& view : contents.model.bufferViews)
+    std::vector<bool> used(data.model.buffers.size(), false);
+    for (const GltfBufferView& view : data.model.bufferViews)
         if (view.buffer >= 0 && static_cast<std::size_t>(view.buffer) < used.size())
             used[static_cast<std::size_t>(view.buffer)] = true;
     for (std::size_t b = 0; b < used.size(); ++b)
         if (!used[b])
-            contents.model.buffers[b].data.clear();
-    drop_extension(contents.json, kMeshoptExtension);
+            data.model.buffers[b].data.clear();
+    drop_extension(data.json, kMeshoptExtension);
 }
 
 } // namespace prt

@@ -18,7 +18,7 @@ glm::vec3 read_corner(const Json& json, const char* name) {
     return {corner[0].get<float>(), corner[1].get<float>(), corner[2].get<float>()};
 }
 
-OcclusionVolume read_occluder(const GltfData& contents, const Json& json) {
+OcclusionVolume read_occluder(const GltfData& data, const Json& json) {
     const Json version = json.value("version", Json(0));
     if (!version.is_number_integer() || version != kOccluderVersion)
         throw Error(std::string(kOccluderExtension) + " has version " + version.dump() +
@@ -29,7 +29,7 @@ OcclusionVolume read_occluder(const GltfData& contents, const Json& json) {
     volume.high = read_corner(json, "max");
     volume.reach = json.at("reach").get<float>();
     check_occlusion_volume(volume);
-    const auto bytes = buffer_view_bytes(contents.model, json.at("texels").at("bufferView").get<int>());
+    const auto bytes = buffer_view_bytes(data.model, json.at("texels").at("bufferView").get<int>());
     if (bytes.size() != sizeof volume.texels)
         throw Error("an occlusion volume has " + std::to_string(bytes.size()) +
                     " bytes of texels, but must have " + std::to_string(sizeof volume.texels));
@@ -39,15 +39,15 @@ OcclusionVolume read_occluder(const GltfData& contents, const Json& json) {
 
 } // namespace
 
-std::vector<NodeOccluder> read_occluders(const GltfData& contents) {
+std::vector<NodeOccluder> read_occluders(const GltfData& data) {
     std::vector<NodeOccluder> occluders;
-    if (!contents.json.contains("nodes"))
+    if (!data.json.contains("nodes"))
         return occluders;
-    const Json& nodes = contents.json["nodes"];
+    const Json& nodes = data.json["nodes"];
     for (std::size_t n = 0; n < nodes.size(); ++n)
         if (const Json* extension = extension_of(nodes[n], kOccluderExtension)) {
             try {
-                occluders.push_back({static_cast<int>(n), read_occluder(contents, *extension)});
+                occluders.push_back({static_cast<int>(n), read_occluder(data, *extension)});
             } catch (const std::exception& error) {
                 throw Error("node " + std::to_string(n) + ": " + in_plain_words(error));
             }

@@ -44,9 +44,8 @@ Predictor read_predictor(const Json& json, const glm::dvec3& scene_origin) {
     return predictor;
 }
 
-std::vector<std::int32_t> read_centers(const GltfData& contents, const Json& json,
-                                       const ClusteredBases& bases) {
-    const RowCode code = read_row_code(contents, json);
+std::vector<std::int32_t> read_centers(const GltfData& data, const Json& json, const ClusteredBases& bases) {
+    const RowCode code = read_row_code(data, json);
     if (code.drops.size() != bases.predictor_rows())
         throw Error("the centers have " + std::to_string(code.drops.size()) +
                     " columns, but the predictors have " + std::to_string(bases.predictor_rows()) + " rows");
@@ -59,8 +58,7 @@ std::vector<std::int32_t> read_centers(const GltfData& contents, const Json& jso
 
 } // namespace
 
-void read_predictors(const GltfData& contents, const Scene& scene, const Json& extension,
-                     ClusteredBases& bases) {
+void read_predictors(const GltfData& data, const Scene& scene, const Json& extension, ClusteredBases& bases) {
     if (!extension.contains("predictors"))
         return;
     const Json& predictors = extension["predictors"];
@@ -71,16 +69,15 @@ void read_predictors(const GltfData& contents, const Scene& scene, const Json& e
     if (bases.predictors.size() == 2 && (bases.predictors[0].kind != PredictorKind::normal ||
                                          bases.predictors[1].kind != PredictorKind::position))
         throw Error("two predictors must be a normal and a position, in this order");
-    bases.centers = read_centers(contents, extension.at("centers"), bases);
+    bases.centers = read_centers(data, extension.at("centers"), bases);
 }
 
-std::vector<float> read_coordinates(const GltfData& contents, const Scene& scene,
-                                    const ClusteredBases& bases) {
+std::vector<float> read_coordinates(const GltfData& data, const Scene& scene, const ClusteredBases& bases) {
     if (bases.predictors.empty())
         return {};
     check_allowed(static_cast<double>(scene.receivers()) * static_cast<double>(bases.predictor_rows()) *
                       sizeof(float),
-                  contents.file_bytes, "the coordinates of its predictors");
+                  data.file_bytes, "the coordinates of its predictors");
     check_predictors(scene, bases.predictors);
     return predictor_coordinates(scene, bases.predictors);
 }

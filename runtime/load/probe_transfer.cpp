@@ -13,8 +13,8 @@
 namespace prt {
 namespace {
 
-std::vector<std::byte> bytes_of(const GltfData& contents, const Json& json) {
-    const auto bytes = buffer_view_bytes(contents.model, json.at("bufferView").get<int>());
+std::vector<std::byte> bytes_of(const GltfData& data, const Json& json) {
+    const auto bytes = buffer_view_bytes(data.model, json.at("bufferView").get<int>());
     return {bytes.begin(), bytes.end()};
 }
 
@@ -26,7 +26,7 @@ glm::vec3 read_origin(const Scene& scene, const Json& json) {
                      scene.origin);
 }
 
-VolumeGrid read_grid(const GltfData& contents, const Scene& scene, const Json& json) {
+VolumeGrid read_grid(const GltfData& data, const Scene& scene, const Json& json) {
     VolumeGrid grid;
     grid.origin = read_origin(scene, json.at("origin"));
     grid.spacing = json.at("spacing").get<float>();
@@ -36,8 +36,8 @@ VolumeGrid read_grid(const GltfData& contents, const Scene& scene, const Json& j
     for (int a = 0; a < 3; ++a)
         grid.size[a] =
             whole_number(size[static_cast<std::size_t>(a)], "the size of the volume", 1, kMaxBricksAlong);
-    check_allowed(16.0 * grid.size.x * grid.size.y * grid.size.z, contents.file_bytes, "its volume");
-    const std::vector<std::byte> bytes = bytes_of(contents, json.at("bricks"));
+    check_allowed(16.0 * grid.size.x * grid.size.y * grid.size.z, data.file_bytes, "its volume");
+    const std::vector<std::byte> bytes = bytes_of(data, json.at("bricks"));
     if (bytes.size() % 8 != 0)
         throw Error("the size of the bricks of the volume is not a multiple of 8 bytes");
     std::vector<std::uint16_t> numbers(bytes.size() / 2);
@@ -46,13 +46,12 @@ VolumeGrid read_grid(const GltfData& contents, const Scene& scene, const Json& j
     for (std::size_t i = 0; i < numbers.size(); i += 4)
         grid.bricks.push_back({{numbers[i], numbers[i + 1], numbers[i + 2]}, numbers[i + 3]});
     check_grid(grid);
-    check_allowed(static_cast<double>(grid.bricks.size()) * kBrickProbes * 64, contents.file_bytes,
-                  "its volume");
+    check_allowed(static_cast<double>(grid.bricks.size()) * kBrickProbes * 64, data.file_bytes, "its volume");
     return grid;
 }
 
-std::vector<ProbeVisibility> read_visibility(const GltfData& contents, const Json& json, std::size_t probes) {
-    const std::vector<std::byte> bytes = bytes_of(contents, json);
+std::vector<ProbeVisibility> read_visibility(const GltfData& data, const Json& json, std::size_t probes) {
+    const std::vector<std::byte> bytes = bytes_of(data, json);
     std::vector<ProbeVisibility> visibility(probes);
     if (bytes.size() != probes * sizeof(ProbeVisibility))
         throw Error("the volume has " + std::to_string(probes) + " probes, but visibility distances for " +
@@ -62,17 +61,17 @@ std::vector<ProbeVisibility> read_visibility(const GltfData& contents, const Jso
     return visibility;
 }
 
-CompressedVolume read_words(const GltfData& contents, const Scene& scene, const Json& extension) {
-    ProbeLayout layout = read_probe_layout(contents, scene, extension);
+CompressedVolume read_words(const GltfData& data, const Scene& scene, const Json& extension) {
+    ProbeLayout layout = read_probe_layout(data, scene, extension);
     const std::size_t probes = layout.visibility.size();
     CompressedVolume volume{std::move(layout.grid), layout.order, std::move(layout.visibility), {}};
     ClusteredTransfer& transfer = volume.compressed.transfer;
     transfer.bases = read_clusters_of(extension, static_cast<std::size_t>(coefficient_count(volume.order)));
     volume.compressed.record = read_record(extension.value("bake", Json::object()));
-    read_bases(contents, extension.at("bases"), transfer.bases);
-    read_packing(contents, extension.at("packing"), transfer);
+    read_bases(data, extension.at("bases"), transfer.bases);
+    read_packing(data, extension.at("packing"), transfer);
     ClusteredReceivers& receivers = transfer.receivers;
-    receivers.weights = bytes_of(contents, extension.at("words"));
+    receivers.weights = bytes_of(data, extension.at("words"));
     if (receivers.weights.size() != probes * receivers.stride())
         throw Error("the size of the packed weights of the volume does not match its " +
                     counted(probes, "probe"));
@@ -82,19 +81,19 @@ CompressedVolume read_words(const GltfData& contents, const Scene& scene, const 
 
 } // namespace
 
-ProbeLayout read_probe_layout(const GltfData& contents, const Scene& scene, const Json& extension) {
+ProbeLayout read_probe_layout(const GltfData& data, const Scene& scene, const Json& extension) {
     ProbeLayout layout;
     layout.order = whole_number(extension.at("incidentOrder"), "incidentOrder", 2, kMaxIncidentOrder);
-    layout.grid = read_grid(contents, scene, extension);
-    layout.visibility = read_visibility(contents, extension.at("visibility"), probes_of(layout.grid).size());
+    layout.grid = read_grid(data, scene, extension);
+    layout.visibility = read_visibility(data, extension.at("visibility"), probes_of(layout.grid).size());
     return layout;
 }
 
-std::optional<CompressedVolume> read_compressed_volume(const GltfData& contents, const Scene& scene) {
-    const Json* extension = find_extension(contents, kVolumeExtension, kVolumeVersion);
+std::optional<CompressedVolume> read_compressed_volume(const GltfData& data, const Scene& scene) {
+    const Json* extension = find_extension(data, kVolumeExtension, kVolumeVersion);
     if (!extension || extension->contains("raw"))
         return std::nullopt;
-    return read_words(contents, scene, *extension);
+    return read_words(data, scene, *extension);
 }
 
 } // namespace prt

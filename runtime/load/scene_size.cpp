@@ -65,8 +65,8 @@ double instance_bytes(const GltfModel& model, const GltfMesh& mesh) {
 
 } // namespace
 
-void check_scene_size(const GltfData& contents, std::span<const NodeTransform> nodes) {
-    const GltfModel& model = contents.model;
+void check_scene_size(const GltfData& data, std::span<const NodeTransform> nodes) {
+    const GltfModel& model = data.model;
     std::vector<double> of_mesh;
     for (const GltfMesh& mesh : model.meshes)
         of_mesh.push_back(instance_bytes(model, mesh));
@@ -76,7 +76,7 @@ void check_scene_size(const GltfData& contents, std::span<const NodeTransform> n
         if (node.visible && mesh >= 0 && static_cast<std::size_t>(mesh) < of_mesh.size())
             bytes += of_mesh[static_cast<std::size_t>(mesh)];
     }
-    check_scene_allowed(bytes, contents, "the scene (with instances and morph targets)");
+    check_scene_allowed(bytes, data, "the scene (with instances and morph targets)");
 }
 
 } // namespace prt

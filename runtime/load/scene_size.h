@@ -11,6 +11,6 @@ namespace prt {
 
 /// Throws `Error` if the meshes of `nodes` need more memory than the file, or its reader, allows: every node
 /// gets separate vertices, so that a small file could require any amount.
-void check_scene_size(const GltfData& contents, std::span<const NodeTransform> nodes);
+void check_scene_size(const GltfData& data, std::span<const NodeTransform> nodes);
 
 } // namespace prt

@@ -32,7 +32,7 @@ InstanceBox read_box(const Json& json) {
     return box;
 }
 
-CodedFactors read_factors(const GltfData& contents, const Json& json, std::size_t count) {
+CodedFactors read_factors(const GltfData& data, const Json& json, std::size_t count) {
     constexpr float kMaxScale = 500; // times 127, covers all factors that `coded` accepts
     CodedFactors coded;
     const Json& scales = json.at("scales");
@@ -43,8 +43,7 @@ CodedFactors read_factors(const GltfData& contents, const Json& json, std::size_
         if (!(coded.scales[j] >= 0 && coded.scales[j] <= kMaxScale))
             throw Error("a scale of the factors of its instances is negative, not finite or too large");
     }
-    const std::span<const std::byte> bytes =
-        buffer_view_bytes(contents.model, json.at("bufferView").get<int>());
+    const std::span<const std::byte> bytes = buffer_view_bytes(data.model, json.at("bufferView").get<int>());
     if (bytes.size() != count * kInstanceNumbers)
         throw Error("the factors of its instances have " + std::to_string(bytes.size()) +
                     " bytes, but must have " + std::to_string(count * kInstanceNumbers));
@@ -55,14 +54,14 @@ CodedFactors read_factors(const GltfData& contents, const Json& json, std::size_
 
 } // namespace
 
-StoredInstances read_stored_instances(const GltfData& contents) {
-    const Json* found = find_extension(contents, kInstancesExtension, kInstancesVersion);
+StoredInstances read_stored_instances(const GltfData& data) {
+    const Json* found = find_extension(data, kInstancesExtension, kInstancesVersion);
     if (!found)
         throw Error(std::string("has no extension ") + kInstancesExtension);
     const Json& extension = *found;
     const auto count = static_cast<std::size_t>(
         whole_number(extension.at("count"), "the number of instances", 1, kMaxSharedInstances));
-    StoredInstances stored{decoded(read_factors(contents, extension.at("factors"), count)), {}};
+    StoredInstances stored{decoded(read_factors(data, extension.at("factors"), count)), {}};
     if (extension.at("boxes").empty())
         throw Error("its instances have no boxes");
     for (const Json& box : extension.at("boxes"))

@@ -32,7 +32,7 @@ LightmapPlacement read_position(const Json& json, const VertexArray& vertices, s
 }
 
 /// Reads the word images of all maps. One image may hold several words.
-std::vector<std::vector<std::byte>> read_images(const GltfData& contents, const Json& maps, std::size_t words,
+std::vector<std::vector<std::byte>> read_images(const GltfData& data, const Json& maps, std::size_t words,
                                                 std::size_t count, const ImageBytes& bytes_of) {
     std::vector<std::vector<std::byte>> all;
     double bytes = 0;
@@ -47,7 +47,7 @@ std::vector<std::vector<std::byte>> read_images(const GltfData& contents, const 
             const int most = static_cast<int>(count) - 1;
             const auto file =
                 bytes_of(static_cast<std::size_t>(whole_number(image, "an image of a map", 0, most)));
-            check_allowed(bytes += static_cast<double>(file.size()), contents.file_bytes,
+            check_allowed(bytes += static_cast<double>(file.size()), data.file_bytes,
                           "the images of its lightmaps");
             all.emplace_back(file.begin(), file.end());
         }
@@ -55,30 +55,30 @@ std::vector<std::vector<std::byte>> read_images(const GltfData& contents, const 
     return all;
 }
 
-EncodedLightmap read_encoded(const GltfData& contents, const Scene& scene, const Json& extension,
+EncodedLightmap read_encoded(const GltfData& data, const Scene& scene, const Json& extension,
                              std::size_t count, const ImageBytes& image) {
     EncodedLightmap encoded;
     CompressedLightmap& lightmap = encoded.lightmap;
     ClusteredTransfer& transfer = lightmap.compressed.transfer;
-    lightmap.layout = read_layout_of_maps(contents, scene, extension);
+    lightmap.layout = read_layout_of_maps(data, scene, extension);
     transfer.bases = read_clusters_of(extension);
     lightmap.compressed.record = read_record(extension.value("bake", Json::object()));
-    read_bases(contents, extension.at("bases"), transfer.bases);
-    read_packing(contents, extension.at("packing"), transfer);
+    read_bases(data, extension.at("bases"), transfer.bases);
+    read_packing(data, extension.at("packing"), transfer);
     const double bytes = static_cast<double>(transfer.receivers.stride() + sizeof(std::uint16_t));
-    check_allowed(bytes * static_cast<double>(lightmap.layout.texels()), contents.file_bytes,
+    check_allowed(bytes * static_cast<double>(lightmap.layout.texels()), data.file_bytes,
                   "the texels of its lightmaps");
-    encoded.images = read_images(contents, extension["maps"],
-                                 static_cast<std::size_t>(transfer.receivers.words), count, image);
+    encoded.images = read_images(data, extension["maps"], static_cast<std::size_t>(transfer.receivers.words),
+                                 count, image);
     return encoded;
 }
 
 } // namespace
 
-const Json* find_lightmap(const GltfData& contents) {
-    const Json* extension = find_extension(contents, kLightmapExtension, kLightmapVersion);
+const Json* find_lightmap(const GltfData& data) {
+    const Json* extension = find_extension(data, kLightmapExtension, kLightmapVersion);
     for (const char* other : {kTransferExtension, kClusteredExtension})
-        if (extension && extension_of(contents.json, other))
+        if (extension && extension_of(data.json, other))
             throw Error(std::string("has ") + kLightmapExtension + " and " + other +
                         "; a file can have transfer at texels or at vertices, not both");
     if (extension && extension->contains("raw") && extension->contains("components"))
@@ -88,16 +88,16 @@ const Json* find_lightmap(const GltfData& contents) {
     return extension;
 }
 
-LightmapLayout read_layout_of_maps(const GltfData& contents, const Scene& scene, const Json& extension) {
+LightmapLayout read_layout_of_maps(const GltfData& data, const Scene& scene, const Json& extension) {
     LightmapLayout layout;
     const Json& maps = extension.at("maps");
     if (!maps.is_array() || maps.empty())
         throw Error("the list of maps is missing or empty");
     for (const Json& map : maps)
         layout.maps.push_back(read_map(map));
-    check_allowed(8 * static_cast<double>(layout.texels()), contents.file_bytes, "its lightmaps");
+    check_allowed(8 * static_cast<double>(layout.texels()), data.file_bytes, "its lightmaps");
     for (const Primitive& primitive : scene.primitives) {
-        const Json* of_primitive = extension_of(primitive_json(contents, primitive), kLightmapExtension);
+        const Json* of_primitive = extension_of(primitive_json(data, primitive), kLightmapExtension);
         if (!of_primitive)
             throw Error(primitive_name(primitive) + " has no " + kLightmapExtension);
         try {
@@ -110,12 +110,12 @@ LightmapLayout read_layout_of_maps(const GltfData& contents, const Scene& scene,
     return layout;
 }
 
-std::optional<EncodedLightmap> read_encoded_lightmap(const GltfData& contents, const Scene& scene,
+std::optional<EncodedLightmap> read_encoded_lightmap(const GltfData& data, const Scene& scene,
                                                      std::size_t images, const ImageBytes& image) {
-    const Json* extension = find_lightmap(contents);
+    const Json* extension = find_lightmap(data);
     if (!extension || extension->contains("raw"))
         return std::nullopt;
-    return read_encoded(contents, scene, *extension, images, image);
+    return read_encoded(data, scene, *extension, images, image);
 }
 
 } // namespace prt

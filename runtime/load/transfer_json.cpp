@@ -64,10 +64,10 @@ std::string read_hash(const Json& json) {
 }
 
 /// Returns the bytes of floats, or of float16, with exactly the required size.
-std::span<const std::byte> float_bytes(const GltfData& contents, const Json& object, std::size_t count,
+std::span<const std::byte> float_bytes(const GltfData& data, const Json& object, std::size_t count,
                                        const std::string& what) {
     const std::size_t size = is_half(object) ? sizeof(std::uint16_t) : sizeof(float);
-    const auto bytes = buffer_view_bytes(contents.model, object.at("bufferView").get<int>());
+    const auto bytes = buffer_view_bytes(data.model, object.at("bufferView").get<int>());
     if (count > 0 && bytes.size() != count * size) // a larger view would have another layout; views cannot be
                                                    // empty
         throw Error(what + ": expected " + std::to_string(count * size) + " bytes, but the buffer view has " +
@@ -93,8 +93,8 @@ BakeRecord read_record(const Json& json) {
     return record;
 }
 
-const Json* find_extension(const GltfData& contents, const char* name, int expected_version) {
-    const Json* extension = extension_of(contents.json, name);
+const Json* find_extension(const GltfData& data, const char* name, int expected_version) {
+    const Json* extension = extension_of(data.json, name);
     if (!extension)
         return nullptr;
     const Json version = extension->value("version", Json(0));
@@ -105,13 +105,13 @@ const Json* find_extension(const GltfData& contents, const char* name, int expec
     return extension;
 }
 
-void check_one_to_one(const GltfData& contents) {
-    const bool told = extension_of(contents.json, kInstancesExtension) != nullptr;
-    if (contents.separate.empty() && told)
+void check_one_to_one(const GltfData& data) {
+    const bool told = extension_of(data.json, kInstancesExtension) != nullptr;
+    if (data.separate.empty() && told)
         throw Error("its instances share their transfer, which this function does not support");
-    bool drawn = !contents.separate.empty();
-    if (contents.json.contains("nodes"))
-        for (const Json& node : contents.json["nodes"])
+    bool drawn = !data.separate.empty();
+    if (data.json.contains("nodes"))
+        for (const Json& node : data.json["nodes"])
             drawn = drawn || extension_of(node, kInstancesExtension);
     if (drawn && !told)
         throw Error(std::string("nodes have ") + kInstancesExtension +
@@ -152,8 +152,8 @@ void check_magnitudes(std::span<const float> values, float largest, const std::s
                     (largest < 1e18f ? " or exceed " + std::to_string(static_cast<long long>(largest)) : ""));
 }
 
-const Json& primitive_json(const GltfData& contents, const Primitive& primitive) {
-    return contents.json.at("meshes")
+const Json& primitive_json(const GltfData& data, const Primitive& primitive) {
+    return data.json.at("meshes")
         .at(static_cast<std::size_t>(primitive.mesh))
         .at("primitives")
         .at(static_cast<std::size_t>(primitive.primitive));
@@ -167,13 +167,12 @@ bool is_half(const Json& object) {
     return object.value("componentType", kFloat) == kHalf;
 }
 
-void read_float_view(const GltfData& contents, const Json& object, std::span<float> to,
-                     const std::string& what) {
+void read_float_view(const GltfData& data, const Json& object, std::span<float> to, const std::string& what) {
     const int type = object.value("componentType", kFloat);
     if (type != kFloat && type != kHalf)
         throw Error(what + " have component type " + std::to_string(type) +
                     ", but must have 5126 (float32) or 5131 (float16)");
-    const auto bytes = float_bytes(contents, object, to.size(), what);
+    const auto bytes = float_bytes(data, object, to.size(), what);
     if (is_half(object)) {
         for (std::size_t i = 0; i < to.size(); ++i) {
             std::uint16_t half = 0;
@@ -186,9 +185,9 @@ void read_float_view(const GltfData& contents, const Json& object, std::span<flo
     check_magnitudes(to, kMaxTransfer, what);
 }
 
-void read_half_view(const GltfData& contents, const Json& object, std::span<std::uint16_t> to,
+void read_half_view(const GltfData& data, const Json& object, std::span<std::uint16_t> to,
                     const std::string& what) {
-    const auto bytes = float_bytes(contents, object, to.size(), what);
+    const auto bytes = float_bytes(data, object, to.size(), what);
     if (to.empty())
         return;
     std::memcpy(to.data(), bytes.data(), to.size_bytes());
@@ -197,12 +196,12 @@ void read_half_view(const GltfData& contents, const Json& object, std::span<std:
             check_magnitudes(std::array{glm::unpackHalf1x16(half)}, kMaxTransfer, what);
 }
 
-std::vector<float> read_float_view(const GltfData& contents, const Json& object, std::size_t count,
-                                   float largest, const std::string& what) {
+std::vector<float> read_float_view(const GltfData& data, const Json& object, std::size_t count, float largest,
+                                   const std::string& what) {
     const int type = object.value("componentType", kFloat);
     if (type != kFloat)
         throw Error(what + " have component type " + std::to_string(type) + ", but must have 5126 (float32)");
-    const auto bytes = float_bytes(contents, object, count, what);
+    const auto bytes = float_bytes(data, object, count, what);
     std::vector<float> values(count);
     if (count > 0)
         std::memcpy(values.data(), bytes.data(), count * sizeof(float));
@@ -210,8 +209,8 @@ std::vector<float> read_float_view(const GltfData& contents, const Json& object,
     return values;
 }
 
-RowCode read_row_code(const GltfData& contents, const Json& json) {
-    const auto bytes = buffer_view_bytes(contents.model, json.at("bufferView").get<int>());
+RowCode read_row_code(const GltfData& data, const Json& json) {
+    const auto bytes = buffer_view_bytes(data.model, json.at("bufferView").get<int>());
     return {read_drops(json), {bytes.begin(), bytes.end()}};
 }
 

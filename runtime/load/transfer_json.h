@@ -23,17 +23,17 @@ BakeRecord read_record(const Json& json);
 
 /// Returns the extension `name` at the top level; null if the file does not have it. Throws `Error` for
 /// another version.
-const Json* find_extension(const GltfData& contents, const char* name, int expected_version);
+const Json* find_extension(const GltfData& data, const char* name, int expected_version);
 
 /// Throws `Error` if instances share transfer and are represented as nodes: the scene then has more vertices
 /// than the file.
-void check_one_to_one(const GltfData& contents);
+void check_one_to_one(const GltfData& data);
 
 /// Reads order and terms of an extension. Throws `Error` if they are invalid.
 TransferLayout read_layout(const Json& extension);
 
 /// Returns the JSON of a scene primitive, in a file in which each vertex is one vertex of the scene.
-const Json& primitive_json(const GltfData& contents, const Primitive& primitive);
+const Json& primitive_json(const GltfData& data, const Primitive& primitive);
 std::string primitive_name(const Primitive& primitive);
 
 /// Consistency check of primitives that share vertices: their transfer must be described equally.
@@ -59,19 +59,18 @@ bool is_half(const Json& object);
 
 /// Reads floats of {"bufferView": ..., "componentType": 5126 or 5131} into `to`; throws unless the number
 /// matches and all values are valid transfer.
-void read_float_view(const GltfData& contents, const Json& object, std::span<float> to,
-                     const std::string& what);
+void read_float_view(const GltfData& data, const Json& object, std::span<float> to, const std::string& what);
 /// Reads float16 values without conversion, if `is_half`; throws unless the number matches and all values are
 /// valid transfer.
-void read_half_view(const GltfData& contents, const Json& object, std::span<std::uint16_t> to,
+void read_half_view(const GltfData& data, const Json& object, std::span<std::uint16_t> to,
                     const std::string& what);
 /// Reads `count` floats of {"bufferView": ..., "componentType": 5126}; throws unless the number matches and
 /// all are at most `largest`.
-std::vector<float> read_float_view(const GltfData& contents, const Json& object, std::size_t count,
-                                   float largest, const std::string& what);
+std::vector<float> read_float_view(const GltfData& data, const Json& object, std::size_t count, float largest,
+                                   const std::string& what);
 
 /// Reads a row code. Throws `Error` for invalid drops.
-RowCode read_row_code(const GltfData& contents, const Json& json);
+RowCode read_row_code(const GltfData& data, const Json& json);
 /// Reads the member `drops` of a row code.
 std::vector<std::uint8_t> read_drops(const Json& json);
 

@@ -39,12 +39,12 @@ int accessor_of(const Json& attributes, const std::string& name) {
 
 /// Throws `Error` if the file has attributes of transfer but no extension of prtkit. Programs that copy only
 /// the extensions that they support write such files.
-void check_extension_is_kept(const GltfData& contents) {
-    if (const auto extensions = contents.json.find("extensions"); extensions != contents.json.end())
+void check_extension_is_kept(const GltfData& data) {
+    if (const auto extensions = data.json.find("extensions"); extensions != data.json.end())
         for (auto it = extensions->begin(); it != extensions->end(); ++it)
             if (it.key().starts_with("PRTKIT_"))
                 return;
-    for_each_primitive(contents.json, [](const Json& primitive) {
+    for_each_primitive(data.json, [](const Json& primitive) {
         const Json& attributes = primitive.value("attributes", Json::object());
         for (auto it = attributes.begin(); it != attributes.end(); ++it)
             if (it.key().starts_with("_PRT_WEIGHTS_") || it.key() == "_PRT_CLUSTER")
@@ -54,9 +54,9 @@ void check_extension_is_kept(const GltfData& contents) {
 }
 
 /// Reads the cluster indices of one vertex array.
-void read_clusters(const GltfData& contents, const Json& attributes, std::size_t clusters,
+void read_clusters(const GltfData& data, const Json& attributes, std::size_t clusters,
                    std::span<std::uint16_t> to) {
-    const auto values = read_unsigned(contents.model, accessor_of(attributes, "_PRT_CLUSTER"), 1);
+    const auto values = read_unsigned(data.model, accessor_of(attributes, "_PRT_CLUSTER"), 1);
     if (values.size() != to.size())
         throw Error("_PRT_CLUSTER has " + std::to_string(values.size()) + " elements, but there are " +
                     std::to_string(to.size()) + " vertices");
@@ -69,25 +69,25 @@ void read_clusters(const GltfData& contents, const Json& attributes, std::size_t
 }
 
 /// Reads the weights of one vertex array, into receivers starting at `first`.
-void read_weights(const GltfData& contents, const Json& attributes, std::size_t first, std::size_t count,
+void read_weights(const GltfData& data, const Json& attributes, std::size_t first, std::size_t count,
                   ClusteredReceivers& receivers) {
     const std::size_t size = group_bytes(receivers.format), stride = receivers.stride();
     for (std::size_t group = 0; group < group_count(receivers); ++group) {
         const std::string name = "_PRT_WEIGHTS_" + std::to_string(group);
         const int accessor = accessor_of(attributes, name);
-        check_weight_accessor(name, contents.model.accessors.at(static_cast<std::size_t>(accessor)),
+        check_weight_accessor(name, data.model.accessors.at(static_cast<std::size_t>(accessor)),
                               receivers.format, count);
-        const std::vector<std::byte> elements = read_elements(contents.model, accessor);
+        const std::vector<std::byte> elements = read_elements(data.model, accessor);
         if (receivers.format == WeightFormat::float32)
-            check_magnitudes(read_floats(contents.model, accessor, 4), kMaxFloatWeight, "the weights");
+            check_magnitudes(read_floats(data.model, accessor, 4), kMaxFloatWeight, "the weights");
         for (std::size_t i = 0; i < count; ++i)
             std::memcpy(&receivers.weights[(first + i) * stride + group * size], &elements[i * size], size);
     }
 }
 
 /// Allocates the weights of `count` receivers.
-void make_room(const GltfData& contents, std::size_t count, ClusteredReceivers& receivers) {
-    check_allowed(static_cast<double>(count) * static_cast<double>(receivers.stride()), contents.file_bytes,
+void make_room(const GltfData& data, std::size_t count, ClusteredReceivers& receivers) {
+    check_allowed(static_cast<double>(count) * static_cast<double>(receivers.stride()), data.file_bytes,
                   "its weights");
     receivers.weights.resize(count * receivers.stride());
 }
@@ -102,17 +102,17 @@ Json own_attributes(const Json& attributes) {
 }
 
 /// Reads clusters and weights of one primitive. `count`: number of receivers of all primitives.
-void read_receivers(const GltfData& contents, const Json& attributes, const VertexArray& vertices,
+void read_receivers(const GltfData& data, const Json& attributes, const VertexArray& vertices,
                     std::size_t count, ClusteredTransfer& transfer) {
     ClusteredReceivers& receivers = transfer.receivers;
     const std::size_t clusters = transfer.bases.clusters();
     const bool packed = receivers.words > 0;
     if (!packed)
-        read_clusters(contents, attributes, clusters,
+        read_clusters(data, attributes, clusters,
                       std::span(receivers.clusters).subspan(vertices.first_receiver, vertices.size()));
     if (receivers.weights.empty())
-        make_room(contents, count, receivers);
-    read_weights(contents, attributes, vertices.first_receiver, vertices.size(), receivers);
+        make_room(data, count, receivers);
+    read_weights(data, attributes, vertices.first_receiver, vertices.size(), receivers);
     if (packed)
         check_clusters(clusters, vertices.first_receiver, vertices.size(), "vertex", receivers);
 }
@@ -131,23 +131,23 @@ std::size_t group_count(const ClusteredReceivers& receivers) {
     return receivers.stride() / group_bytes(receivers.format);
 }
 
-std::optional<CompressedTransfer> read_clustered(const GltfData& contents, const Scene& scene) {
-    const Json* extension = find_extension(contents, kClusteredExtension, kClusteredVersion);
+std::optional<CompressedTransfer> read_clustered(const GltfData& data, const Scene& scene) {
+    const Json* extension = find_extension(data, kClusteredExtension, kClusteredVersion);
     if (!extension) {
-        check_extension_is_kept(contents);
+        check_extension_is_kept(data);
         return std::nullopt;
     }
-    check_one_to_one(contents);
+    check_one_to_one(data);
     CompressedTransfer compressed;
     ClusteredBases& bases = compressed.transfer.bases;
     ClusteredReceivers& receivers = compressed.transfer.receivers;
     bases = read_clusters_of(*extension);
     compressed.record = read_record(extension->value("bake", Json::object()));
-    read_predictors(contents, scene, *extension, bases);
-    read_bases(contents, extension->at("bases"), bases);
+    read_predictors(data, scene, *extension, bases);
+    read_bases(data, extension->at("bases"), bases);
     const bool packed = extension->contains("packing");
     if (packed)
-        read_packing(contents, extension->at("packing"), compressed.transfer);
+        read_packing(data, extension->at("packing"), compressed.transfer);
     else
         receivers.components = (bases.max_components() + 3) / 4 * 4;
     if (!packed)
@@ -155,11 +155,11 @@ std::optional<CompressedTransfer> read_clustered(const GltfData& contents, const
     check_predictors(scene, bases.predictors);
     TransferOfVertices read;
     for (const Primitive& primitive : scene.primitives) {
-        const Json& attributes = primitive_json(contents, primitive).at("attributes");
+        const Json& attributes = primitive_json(data, primitive).at("attributes");
         if (!read.is_new(primitive, own_attributes(attributes)))
             continue;
         try {
-            read_receivers(contents, attributes, scene.vertex_arrays[primitive.vertices], scene.receivers(),
+            read_receivers(data, attributes, scene.vertex_arrays[primitive.vertices], scene.receivers(),
                            compressed.transfer);
         } catch (const std::exception& error) {
             throw Error(primitive_name(primitive) + ": " + in_plain_words(error));
