@@ -245,12 +245,14 @@ std::size_t GltfContents::add_buffer_view(std::span<const std::byte> bytes, std:
     buffer.insert(buffer.end(), begin, begin + bytes.size());
     pad_to(buffer, 8);
     Json& views = member(json, "bufferViews", Json::value_t::array);
+    model.bufferViews.push_back({0, view["byteOffset"].get<std::size_t>(), bytes.size(), stride});
     views.push_back(std::move(view));
     return views.size() - 1;
 }
 
 std::size_t GltfContents::add_accessor(Json accessor) {
     Json& accessors = member(json, "accessors", Json::value_t::array);
+    model.accessors.push_back(read_accessor(accessor));
     accessors.push_back(std::move(accessor));
     return accessors.size() - 1;
 }

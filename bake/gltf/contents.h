@@ -16,7 +16,8 @@
 
 namespace prt {
 
-/// Edits of `json` do not update `model`, except `remove_unused` and its callers; its views follow the bytes.
+/// The functions keep views and accessors of `model` in step with `json`; `remove_unused` and its callers
+/// update all of it. Other edits of `json` do not update `model`.
 struct GltfContents : GltfData {
     tinygltf::Model parsed; ///< materials, textures, images and animations; without buffers
     std::vector<std::vector<std::byte>> images; ///< encoded, by image index; empty: cannot be read

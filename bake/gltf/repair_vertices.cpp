@@ -46,11 +46,6 @@ std::optional<Damaged> find_damaged(const GltfModel& model, int accessor, std::s
 /// Stores `values` in a new buffer view for `accessor`, which has no buffer view or is sparse.
 void give_own_values(GltfContents& contents, std::size_t accessor, std::span<const float> values) {
     const std::size_t view = contents.add_buffer_view(std::as_bytes(values));
-    const Json& json = contents.json["bufferViews"][view];
-    GltfBufferView& added = contents.model.bufferViews.emplace_back();
-    added.buffer = 0;
-    added.byteOffset = json["byteOffset"].get<std::size_t>();
-    added.byteLength = values.size_bytes();
     GltfAccessor& model = contents.model.accessors[accessor];
     model.bufferView = static_cast<int>(view);
     model.byteOffset = 0;

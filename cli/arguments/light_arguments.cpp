@@ -217,8 +217,9 @@ void add_metric(CLI::App* command, MetricArguments& arguments) {
                 "\nlight file: at least of the order of the bake; repeat the option for several files\n"
                 "a family cannot be combined with other lights\n"
                 "outdoor, indoor, day and FILE: mean of all rotations about +Y\n"
-                "suns of the lights: in the sky, and if the result has direct and indirect transfer, also\n"
-                "  separate (without their direct light)\n"
+                "suns of the lights: in the sky, and also separate (without their direct light)\n"
+                "  FILE and natural: separate if the result has direct and indirect transfer\n"
+                "  outdoor, indoor and day: separate if it has direct transfer\n"
                 "with every FAMILY and FILE, the error of the lamps of the bake is also minimized")
         ->allow_extra_args(false) // one each time, so that the bake may follow
         ->check(named)

@@ -159,7 +159,8 @@ void add_subsurface(CLI::App* command, SubsurfaceOptions& subsurface) {
             "names: " +
                 names_of_media() +
                 "\n"
-                "repeat the option for several materials, each once; an entry for all materials comes first\n"
+                "repeat the option for several materials, each once; type an entry for all materials\n"
+                "  first: it replaces the entries before it\n"
                 "an unknown material is an error; not with --texels and --instances shared\n"
                 "default: materials scatter that have KHR_materials_diffuse_transmission, and\n"
                 "  KHR_materials_volume with thickness and attenuation distance\n"

@@ -250,7 +250,9 @@ void add_info(CLI::App& app, Session& session) {
     CLI::App* command = app.add_subcommand("info", "List the contents of a glTF file");
     auto& a = arguments_for<InfoArguments>(command,
                                            [&session](const InfoArguments& given) { run(given, session); });
-    command->add_option("file", a.file, "file to describe: any .gltf or .glb")->required()->check(named);
+    command->add_option("file", a.file, "file to describe: any glTF 2.0 with triangles, .gltf or .glb")
+        ->required()
+        ->check(named);
     command->add_flag(
         "--check", a.check,
         "also list problems with remedies; exit status 1 if there are any\n"

@@ -20,7 +20,8 @@ constexpr const char* kMaxErrorText =
     "X: above 0; relative L2 over the surface against path tracing\n"
     "  root mean square over --lights\n"
     "  lamps of the scene are off, and each light has only the rotation of --rotate\n"
-    "if no result has at most X, an error; --best-effort then writes the closest result\n"
+    "an error if no result has at most X, or if the error before compression is above 0.92 X\n"
+    "  --best-effort: then writes the closest result, which can still meet X\n"
     "default: 0.03 (3 %), or 1.2 times the error before compression if that is larger\n"
     "  if it is not met, the closest result is written\n"
     "not with --bytes-per-vertex, which has no limit of the error";

@@ -224,7 +224,8 @@ void add_relight(CLI::App& app, Session& session) {
     add_output(command, a.output,
                "write the model with light as vertex colors to this .glb\n"
                "existing vertex colors are replaced; with --colors unlit they are multiplied or kept\n"
-               "the file contains no transfer of vertices; a volume remains");
+               "the file contains no transfer of vertices; a volume remains\n"
+               "levels of detail: only level 0 gets colors; coarser levels have neither light nor transfer");
     add_suns(command, a.suns,
              std::string("number of suns of --lights with sharp shadows, traced by rays\n"
                          "needs --lights\n"

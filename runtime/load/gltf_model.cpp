@@ -48,19 +48,6 @@ GltfSparse read_sparse(const Json& json) {
             {values.at("bufferView").get<int>(), length(values, "byteOffset")}};
 }
 
-GltfAccessor read_accessor(const Json& json) {
-    GltfAccessor accessor;
-    accessor.bufferView = json.value("bufferView", -1);
-    accessor.byteOffset = length(json, "byteOffset");
-    accessor.componentType = json.at("componentType").get<int>();
-    accessor.count = json.at("count").get<std::size_t>();
-    accessor.components = component_count(json.at("type").get<std::string>());
-    accessor.normalized = json.contains("normalized") && json["normalized"] == true;
-    if (json.contains("sparse"))
-        accessor.sparse = read_sparse(json["sparse"]);
-    return accessor;
-}
-
 GltfPrimitive read_primitive(const Json& json) {
     GltfPrimitive primitive;
     primitive.attributes = json.at("attributes").get<GltfAttributes>();
@@ -111,6 +98,19 @@ auto read_list(const Json& json, const char* list, const char* element, Read rea
 }
 
 } // namespace
+
+GltfAccessor read_accessor(const Json& json) {
+    GltfAccessor accessor;
+    accessor.bufferView = json.value("bufferView", -1);
+    accessor.byteOffset = length(json, "byteOffset");
+    accessor.componentType = json.at("componentType").get<int>();
+    accessor.count = json.at("count").get<std::size_t>();
+    accessor.components = component_count(json.at("type").get<std::string>());
+    accessor.normalized = json.contains("normalized") && json["normalized"] == true;
+    if (json.contains("sparse"))
+        accessor.sparse = read_sparse(json["sparse"]);
+    return accessor;
+}
 
 int component_count(const std::string& type) {
     for (const auto& [name, count] :

@@ -104,6 +104,9 @@ struct GltfModel {
 /// is missing or has a wrong type.
 GltfModel read_model(const Json& json);
 
+/// Reads one accessor. Throws `Error` if a member is missing or has a wrong type.
+GltfAccessor read_accessor(const Json& json);
+
 /// Returns the number of components of "SCALAR", "VEC2" ... Throws `Error` for other names.
 int component_count(const std::string& type);
 

@@ -118,7 +118,7 @@ TEST_F(Relight, CountsTexturesInTheAutomaticExposure) {
     const std::size_t count = file.json["accessors"][0]["count"];
     auto& primitive = file.json["meshes"][0]["primitives"][0];
     primitive["attributes"]["TEXCOORD_0"] =
-        file.accessor(std::vector<float>(2 * count, 0.5f), kFloat, "VEC2", count);
+        file.accessor(std::vector<float>(2 * count, 0.5f), kFloat, "VEC2", 2);
     primitive["material"] = 0;
     file.write(folder / "s.glb");
     ASSERT_EQ(prt({"bake", at("s.glb"), "-o", at("b.glb"), "--rays", "256", "--order", "4"}).status, 0);
