@@ -229,6 +229,7 @@ void add_relight(CLI::App& app, Session& session) {
     add_suns(command, a.suns,
              std::string("number of suns of --lights with sharp shadows, traced by rays\n"
                          "needs --lights\n"
+                         "after prt bake --subsurface and prt compress: use 0; media get this light twice\n"
                          "after prt compress --combine-direct: only 0, and auto acts as 0\n") +
                  kSunsOfLightFiles,
              "auto", &a.rays);

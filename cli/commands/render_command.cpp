@@ -659,6 +659,7 @@ void add_render(CLI::App& app, Session& session) {
                  "needs --lights; no effect on --show clusters and ao, and on path-traced pictures\n"
                  "more than 4 suns, or any after prt bake --subsurface: drawn by the CPU\n"
                  "  --device gpu: more than 4 are an error; after --subsurface only 0, and auto acts as 0\n"
+                 "after prt bake --subsurface and prt compress: use 0; media get the light of suns twice\n"
                  "--show error --baked: the direct light of these suns is not part of the error\n"
                  "after prt compress --combine-direct or prt lobes: only 0, and auto acts as 0\n") +
                  kSunsOfLightFiles,
