@@ -354,6 +354,7 @@ GltfDocument parse_gltf(std::span<const std::byte> whole_file, const std::filesy
     auto contents = std::make_unique<GltfContents>();
     contents->path = path;
     contents->scene_limit = options.scene_limit;
+    contents->limit_remedy = "; raise it with --memory-limit";
     try {
         const std::span<const std::byte> file = without_tile(whole_file, contents->notices);
         check_is_gltf(file, path);

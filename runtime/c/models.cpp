@@ -15,8 +15,9 @@
 #include <string>
 
 const prt::ClusteredTransfer& prt_model::transfer_for_cpu() const {
-    std::call_once(has_coordinates,
-                   [&] { transfer.receivers.predictors = prt::predictor_coordinates(scene, transfer.bases.predictors); });
+    std::call_once(has_coordinates, [&] {
+        transfer.receivers.predictors = prt::predictor_coordinates(scene, transfer.bases.predictors);
+    });
     return transfer;
 }
 

@@ -156,6 +156,9 @@ std::size_t check_accessor(const GltfModel& model, int index) {
     if (!accessor.sparse)
         return size;
     const GltfSparse& sparse = *accessor.sparse;
+    if (sparse.indices.componentType != kUnsignedByte && sparse.indices.componentType != kUnsignedShort &&
+        sparse.indices.componentType != kUnsignedInt)
+        throw Error(name + " is sparse, but its indices are not unsigned integers");
     if (sparse.count > accessor.count)
         throw Error(name + " is sparse and replaces more elements than it has");
     check_fits(replacements(model, accessor, sparse.indices, component_bytes(sparse.indices.componentType)),

@@ -37,7 +37,7 @@ void check_scene_allowed(double bytes, const GltfData& data, const std::string& 
     if (limit > 0)
         throw Error(what + " would need " + megabytes(bytes) + " of memory; the limit is " +
                     megabytes(limit) + ", raise it with --memory-limit");
-    throw Error(excess(bytes, data.file_bytes, what) + "; raise it with --memory-limit");
+    throw Error(excess(bytes, data.file_bytes, what) + data.limit_remedy);
 }
 
 } // namespace prt

@@ -17,10 +17,11 @@
 namespace prt {
 namespace {
 
-/// Lists at the top level, and the memory that a parser needs for an element: at most that of tinygltf 2.
+/// Lists at the top level, and the memory that a parser needs for an element: the maximum of tinygltf 2
+/// and of `GltfModel` with its transforms.
 constexpr std::pair<const char*, std::size_t> kLists[] = {
     {"accessors", 416}, {"animations", 344}, {"bufferViews", 344}, {"buffers", 352}, {"cameras", 920},
-    {"images", 424},    {"materials", 2144}, {"meshes", 344},      {"nodes", 456},   {"samplers", 312},
+    {"images", 424},    {"materials", 2144}, {"meshes", 344},      {"nodes", 1200},  {"samplers", 312},
     {"scenes", 320},    {"skins", 328},      {"textures", 304}};
 constexpr std::size_t kPrimitive = 352, kValue = 152; ///< a primitive, and a value of an extension
 

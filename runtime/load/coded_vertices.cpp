@@ -28,11 +28,28 @@ std::optional<std::size_t> first_vertex(const Json& primitive) {
     return static_cast<std::size_t>(whole_number(extension->at("firstVertex"), "firstVertex", 0, INT_MAX));
 }
 
+/// Throws `Error` if the triangles of all primitives with coded words need too much memory: primitives can
+/// share accessors, and accessors need no data.
+void check_triangles(const GltfData& data) {
+    constexpr double kBytesPerIndex = 24; // the index, its triangle and its neighbours
+    double bytes = 0;
+    for_each_pair(data, [&](const Json& primitive, const GltfPrimitive& model) {
+        if (!first_vertex(primitive))
+            return;
+        const std::size_t indices = model.indices >= 0 ? get_accessor(data.model, model.indices).count
+                                                       : vertex_count(data.model, model);
+        const double corners = model.mode == kTriangles ? 1 : 3;
+        bytes += kBytesPerIndex * corners * static_cast<double>(indices);
+    });
+    check_allowed(bytes, data.file_bytes, "the triangles of its coded words");
+}
+
 /// Decodes the words of all vertices.
 std::vector<std::uint32_t> decoded(const GltfData& data, const Json& json, const WordLayout& layout) {
     const auto vertices = static_cast<std::size_t>(whole_number(json.at("vertices"), "vertices", 1, INT_MAX));
     check_allowed(static_cast<double>(vertices) * (kBytesPerVertex + 16.0 * layout.words), data.file_bytes,
                   "its coded words");
+    check_triangles(data);
     WordMesh mesh(vertices);
     for_each_pair(data, [&](const Json& primitive, const GltfPrimitive& model) {
         if (const auto first = first_vertex(primitive))

@@ -216,6 +216,15 @@ private:
                    : geometry_.skins.emplace(index, read_skin(model_, index)).first->second;
     }
 
+    /// Returns the matrices of a skin in the pose of the file; several meshes may use it.
+    const std::vector<glm::dmat4>& palette_of(int skin) {
+        const auto found = palettes_.find(skin);
+        return found != palettes_.end()
+                   ? found->second
+                   : palettes_.emplace(skin, joint_palette(skin_of(skin), geometry_.nodes.world))
+                         .first->second;
+    }
+
     bool has_vertices(const GltfPrimitive& file) const {
         const int position = attribute(file, "POSITION");
         const auto index = static_cast<std::size_t>(position);
@@ -271,12 +280,8 @@ private:
         apply_morph_targets(model_, file, node.weights.empty() ? mesh.weights : node.weights, vertices);
 
         MovingVertices moving{static_cast<std::size_t>(node_transform.node), node.skin, {}, {}, 1, {}, {}};
-        std::vector<glm::dmat4> palette = {node_transform.world};
-        if (node.skin >= 0) {
-            const Skin& skin = skin_of(node.skin);
-            palette = joint_palette(skin, geometry_.nodes.world);
-            read_influences(model_, file, skin.joints.size(), vertices.size(), moving);
-        }
+        if (node.skin >= 0)
+            read_influences(model_, file, skin_of(node.skin).joints.size(), vertices.size(), moving);
         std::vector<glm::dvec3> points;
         points.reserve(vertices.size());
         if (keep_ == Keep::moving)
@@ -287,6 +292,7 @@ private:
             std::ranges::transform(vertices.normals, vertices.normals.begin(),
                                    NormalTransform(node_transform.world));
         } else {
+            const std::vector<glm::dmat4>& palette = palette_of(node.skin);
             for (std::size_t i = 0; i < vertices.size(); ++i) {
                 const glm::dmat4 matrix = vertex_matrix(palette, moving, i);
                 points.emplace_back(matrix * glm::dvec4(vertices.positions[i], 1));
@@ -389,6 +395,7 @@ private:
     Scene& scene_ = geometry_.scene;
     std::vector<std::vector<glm::dvec3>> positions_; ///< [vertex arrays][vertices] in the world
     SharedVertices shared_;
+    std::map<int, std::vector<glm::dmat4>> palettes_; ///< by skin
     Seen seen_;
 };
 

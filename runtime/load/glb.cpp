@@ -47,13 +47,16 @@ std::string_view glb_json(std::span<const std::byte> file) {
 }
 
 std::span<const std::byte> glb_binary(std::span<const std::byte> file) {
-    const std::size_t begin = kHeader + kChunkHeader + glb_json(file).size();
-    if (file.size() < begin + kChunkHeader)
-        return {};
-    const std::size_t length = word(file, begin);
-    if (word(file, begin + 4) != kBin || length > file.size() - begin - kChunkHeader)
-        throw Error("is truncated: its binary chunk reaches beyond the end of the file");
-    return file.subspan(begin + kChunkHeader, length);
+    std::size_t begin = kHeader + kChunkHeader + glb_json(file).size();
+    while (file.size() >= begin + kChunkHeader) {
+        const std::size_t length = word(file, begin);
+        if (length > file.size() - begin - kChunkHeader)
+            throw Error("is truncated: its binary chunk reaches beyond the end of the file");
+        if (word(file, begin + 4) == kBin)
+            return file.subspan(begin + kChunkHeader, length);
+        begin += kChunkHeader + length; // readers ignore unknown chunks
+    }
+    return {};
 }
 
 std::vector<std::byte> make_glb(std::string json, std::span<const std::byte> binary) {

@@ -5,6 +5,8 @@
 #include "runtime/load/extensions.h"
 
 #include <algorithm>
+#include <climits>
+#include <cstdint>
 #include <utility>
 
 namespace prt {
@@ -24,7 +26,10 @@ std::vector<double> numbers(const Json& object, const char* key) {
 
 std::vector<int> indices(const Json& object, const char* key) {
     const Json& list = list_of(object, key);
-    if (!list.is_array() || !std::ranges::all_of(list, &Json::is_number_integer))
+    const auto is_index = [](const Json& value) {
+        return value.is_number_unsigned() && value.get<std::uint64_t>() <= INT_MAX;
+    };
+    if (!list.is_array() || !std::ranges::all_of(list, is_index))
         throw Error(std::string("is damaged glTF: ") + key + " is not a list of indices");
     return list.get<std::vector<int>>();
 }

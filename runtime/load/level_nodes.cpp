@@ -2,6 +2,7 @@
 #include "runtime/load/level_nodes.h"
 
 #include "prt/core/error.h"
+#include "runtime/load/allowance.h"
 #include "runtime/load/level_names.h"
 #include "runtime/support/printable.h"
 
@@ -23,12 +24,10 @@ struct FoundLevels {
 class LevelFinder {
 public:
     LevelFinder(const GltfData& data, const NodeTree& tree)
-        : data_(data), model_(data.model), tree_(tree), parent_(model_.nodes.size(), -1),
-          in_scene_(model_.nodes.size(), false), level_of_(model_.nodes.size(), -1) {
-        for (const NodeTree::Entry& position : tree.order) {
-            parent_[at(position.node)] = position.parent;
-            in_scene_[at(position.node)] = true;
-        }
+        : data_(data), model_(data.model), tree_(tree), first_(model_.nodes.size(), 0),
+          last_(model_.nodes.size(), 0), is_listed_(model_.nodes.size(), false),
+          level_of_(model_.nodes.size(), -1) {
+        number_nodes();
     }
 
     std::vector<FoundLevels> find() {
@@ -55,8 +54,33 @@ private:
                             std::to_string(level_of_[at(levels.node)]) +
                             " and cannot have levels of detail itself");
         for (FoundLevels& levels : listed)
-            if (in_scene_[at(levels.node)] && !levels.coarser.empty())
+            if (first_[at(levels.node)] > 0 && !levels.coarser.empty()) {
+                is_listed_[at(levels.node)] = true;
                 found_.push_back(std::move(levels));
+            }
+    }
+
+    /// Numbers the nodes of the scene: those below a node have numbers between its first and its last.
+    void number_nodes() {
+        std::vector<std::size_t> sizes(model_.nodes.size(), 1);
+        for (auto position = tree_.order.rbegin(); position != tree_.order.rend(); ++position)
+            if (position->parent >= 0)
+                sizes[at(position->parent)] += sizes[at(position->node)];
+        std::vector<std::size_t> next(model_.nodes.size(), 0);
+        std::size_t root = 1;
+        for (const NodeTree::Entry& position : tree_.order) {
+            std::size_t& first = position.parent < 0 ? root : next[at(position.parent)];
+            first_[at(position.node)] = first;
+            next[at(position.node)] = first + 1;
+            first += sizes[at(position.node)];
+            last_[at(position.node)] = first - 1;
+        }
+    }
+
+    /// Returns whether `node` is below `above` in the scene.
+    bool is_above(int above, int node) const {
+        return first_[at(above)] > 0 && first_[at(node)] > first_[at(above)] &&
+               first_[at(node)] <= last_[at(above)];
     }
 
     std::vector<int> ids_of(int node, const Json& extension) const {
@@ -80,11 +104,9 @@ private:
             throw Error(what + std::to_string(level_of_[at(level)]) +
                         (level_of_[at(level)] == node ? " twice" : " and of node " + std::to_string(node)) +
                         "; each level needs a separate node, but nodes can share a mesh");
-        for (int above = node; above >= 0; above = parent_[at(above)])
-            if (above == level)
-                throw Error(
-                    what + std::to_string(node) +
-                    (above == node ? ", which is the same node" : ", which is one of its descendants"));
+        if (node == level || is_above(level, node))
+            throw Error(what + std::to_string(node) +
+                        (level == node ? ", which is the same node" : ", which is one of its descendants"));
         level_of_[at(level)] = node;
     }
 
@@ -127,19 +149,17 @@ private:
     /// Returns whether MSFT_lod already covers one of the nodes.
     bool says_more(const std::map<int, std::vector<int>>& levels) const {
         return std::ranges::any_of(levels, [&](const auto& level) {
-            return std::ranges::any_of(level.second, [&](int node) {
-                return level_of_[at(node)] >= 0 ||
-                       std::ranges::find(found_, node, &FoundLevels::node) != found_.end();
-            });
+            return std::ranges::any_of(
+                level.second, [&](int node) { return level_of_[at(node)] >= 0 || is_listed_[at(node)]; });
         });
     }
 
     const GltfData& data_;
     const GltfModel& model_;
     const NodeTree& tree_;
-    std::vector<int> parent_;
-    std::vector<bool> in_scene_;
-    std::vector<int> level_of_; ///< -1: not a level
+    std::vector<std::size_t> first_, last_; ///< [nodes] 0: not in the scene
+    std::vector<bool> is_listed_;           ///< [nodes] has levels of MSFT_lod
+    std::vector<int> level_of_;             ///< -1: not a level
     std::vector<FoundLevels> found_;
     std::vector<std::string> notices_;
 };
@@ -148,7 +168,7 @@ private:
 class LevelPlacer {
 public:
     LevelPlacer(const GltfData& data, const NodeTree& tree, std::span<const FoundLevels> found)
-        : model_(data.model), tree_(tree), coarser_(model_.nodes.size(), false),
+        : data_(data), model_(data.model), tree_(tree), coarser_(model_.nodes.size(), false),
           seen_(model_.nodes.size(), false), parent_(model_.nodes.size(), -1) {
         for (const FoundLevels& levels : found)
             for (const int level : levels.coarser)
@@ -171,12 +191,16 @@ public:
             if (!left_out[n])
                 result_.finest.push_back(node);
         }
+        double bytes = 0;
         for (const FoundLevels& levels : found) {
             if (left_out[at(levels.node)] || !visible[at(levels.node)])
                 continue;
             NodeLevels placed{levels.node, levels.by_name, {}, {}};
             for (const NodeTransform& node : below(levels.node, true))
                 placed.finest.push_back(node.node);
+            // Nested nodes with levels list their descendants repeatedly.
+            bytes += static_cast<double>(placed.finest.size() * sizeof(int));
+            check_allowed(bytes, data_.file_bytes, "the nodes of its levels of detail");
             for (const int level : levels.coarser) {
                 if (!in_scene[at(level)])
                     parent_[at(level)] = parent_[at(levels.node)];
@@ -225,6 +249,7 @@ private:
         result_.world[at(node)] = parent < 0 ? local : result_.world[at(parent)] * local;
     }
 
+    const GltfData& data_;
     const GltfModel& model_;
     const NodeTree& tree_;
     std::vector<bool> coarser_, seen_; ///< [nodes]; seen: has a transform

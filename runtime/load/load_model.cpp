@@ -3,6 +3,7 @@
 
 #include "prt/core/error.h"
 #include "runtime/load/accessor.h"
+#include "runtime/load/allowance.h"
 #include "runtime/load/check_data.h"
 #include "runtime/load/check_shape.h"
 #include "runtime/load/coded_vertices.h"
@@ -72,13 +73,19 @@ GltfData read_data(std::span<const std::byte> file) {
 }
 
 /// Adds the vertex arrays that each instance draws.
-std::vector<FileInstance> placed_instances(std::vector<MeshInstance> instances, const Scene& scene) {
+std::vector<FileInstance> placed_instances(std::vector<MeshInstance> instances, const Scene& scene,
+                                           std::size_t file_bytes) {
     std::map<int, std::vector<std::size_t>> arrays_of_mesh;
     for (const Primitive& primitive : scene.primitives) {
         std::vector<std::size_t>& arrays = arrays_of_mesh[primitive.mesh];
         if (std::ranges::find(arrays, primitive.vertices) == arrays.end())
             arrays.push_back(primitive.vertices);
     }
+    double bytes = 0;
+    for (const MeshInstance& one : instances)
+        bytes +=
+            static_cast<double>(sizeof(FileInstance) + arrays_of_mesh[one.mesh].size() * sizeof(std::size_t));
+    check_allowed(bytes, file_bytes, "its instances");
     std::vector<FileInstance> placed;
     for (auto& [instance, mesh] : instances) {
         instance.stored_arrays = arrays_of_mesh[mesh];
@@ -106,7 +113,7 @@ Model read_contents(GltfData& data) {
     }
     UnitRange range;
     model.scene = extract_geometry(data, range).scene;
-    model.instances = placed_instances(std::move(instances), model.scene);
+    model.instances = placed_instances(std::move(instances), model.scene, data.file_bytes);
     model.vertices = read_clustered(data, model.scene);
     model.lightmap = read_encoded_lightmap(data, model.scene,
                                            data.json.contains("images") ? data.json["images"].size() : 0,

@@ -105,8 +105,8 @@ void decompress_views(GltfData& data) {
         const Json* extension = extension_of(views[v], kMeshoptExtension);
         if (!extension)
             continue;
+        const auto view_bytes = buffer_view_bytes(data.model, static_cast<int>(v));
         try {
-            const auto view_bytes = buffer_view_bytes(data.model, static_cast<int>(v));
             const std::span source(reinterpret_cast<const unsigned char*>(view_bytes.data()),
                                    view_bytes.size());
             const MeshoptCode code = read_code(*extension);

@@ -21,8 +21,8 @@ struct WholeModel {
 /// `Error` where the file is refused.
 WholeModel read_whole(std::span<const std::byte> file, const std::filesystem::path& path);
 
-/// Reads as a game does and expects that all numbers are finite and all indices are inside; lights everything.
-/// Throws `Error` where the file is refused.
+/// Reads as a game does and expects that all numbers are finite and all indices are inside; lights
+/// everything. Throws `Error` where the file is refused.
 void use_loaded(std::span<const std::byte> file, const std::filesystem::path& path);
 
 /// Decodes it, lights it, and expects finite numbers.

@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <functional>
 #include <random>
 #include <string>
@@ -207,6 +208,17 @@ TEST(LoadModel, IgnoresRawTransferAndFilesWithout) {
     EXPECT_TRUE(baked.instances.empty() && baked.occluders.empty());
 }
 
+TEST(LoadModel, SkipsUnknownChunks) {
+    const GlbFile file = shipped_files().front().file;
+    std::string bytes = file.bytes();
+    std::uint32_t json = 0;
+    std::memcpy(&json, bytes.data() + 12, sizeof json);
+    bytes.insert(20 + json, std::string("\4\0\0\0NEW!", 8) + "data");
+    const Model model = parse_model(std::as_bytes(std::span(bytes)), "model.glb");
+    ASSERT_TRUE(model.vertices);
+    EXPECT_EQ(model.vertices->transfer.receivers.weights, parsed(file).vertices->transfer.receivers.weights);
+}
+
 TEST(LoadModel, RefusesFilesThatItCannotRead) {
     const std::vector<ShippedFile> files = shipped_files();
     const auto changed = [&](const std::function<void(GlbFile&)>& change) {
@@ -240,6 +252,17 @@ TEST(LoadModel, RefusesFilesThatItCannotRead) {
     EXPECT_NE(changed([](GlbFile& file) {
                   file.json["nodes"][0]["children"] = {"a"};
               }).find("node 0: is damaged glTF: children is not a list of indices"),
+              std::string::npos);
+    EXPECT_NE(changed([](GlbFile& file) {
+                  file.json["nodes"][0]["children"] = {4294967297};
+              }).find("children is not a list of indices"),
+              std::string::npos);
+    EXPECT_NE(changed([](GlbFile& file) {
+                  file.json["accessors"][0]["sparse"] = {
+                      {"count", 1},
+                      {"indices", {{"bufferView", 0}, {"componentType", kFloat}}},
+                      {"values", {{"bufferView", 0}}}};
+              }).find("is sparse, but its indices are not unsigned integers"),
               std::string::npos);
     const std::string text = "{\"asset\": {\"version\": \"2.0\"}}";
     EXPECT_THROW(parse_model(std::as_bytes(std::span(text)), "scene.gltf"), Error);
