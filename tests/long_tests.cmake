@@ -21,6 +21,8 @@ set(long_tests
     Search.ReportsTheTime* Search.FloatWeightsFit* Skies/Suns.* Sky.AgreesWith* SphericalBowl.* Storage.*
     Subsurface.IsFinite* SunShadowPictures.AgreeWithRays* Suns.SumWithTheRemainder* Sweep.*
     TargetError.FindsTheWindow* TargetError.IsReached* TargetError.NeedsFewer* Trace.NoCluster*
+    LightmapViewer.CompressesABake* Lightmaps.TouchingBlocks* NoiseFilter.ChangesLittle* NoiseFilter.RemovesMostNoiseOfASky*
+    SharedInstances.ErrorsDoNot* SharedInstances.KeepTheir* SharedInstances.LargeErrors* ViewerPictures.NumbersShow*
     ViewerPictures.SeparateSuns* ViewerTest.BakesAndShows* ViewerTest.LimitsTheBases* ViewerTest.ListsEvery*
     ViewerTest.OpensCompressed* ViewerTest.CombinesABake* ViewerTest.ReportsTransfer* VolumeBake.FitReduces*)
 list(JOIN long_tests ":" long_tests)
