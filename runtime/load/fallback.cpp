@@ -73,7 +73,7 @@ std::set<int> set_fallback_aside(GltfData& data) {
     if (!exposure.is_number() || !(exposure.get<double>() > 0))
         throw Error("the exposure of the fallback is not a number greater than 0");
     data.json["extensions"][kClusteredExtension].erase("fallback");
-    const std::set<int> lit = lit_again(data);
+    std::set<int> lit = lit_again(data);
     for (std::size_t m = 0; m < data.model.meshes.size(); ++m)
         for (std::size_t p = 0; p < data.model.meshes[m].primitives.size(); ++p) {
             Json& primitive = data.json.at("meshes").at(m).at("primitives").at(p);
