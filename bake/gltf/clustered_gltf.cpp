@@ -4,6 +4,7 @@
 
 #include "bake/gltf/make_meshes_unique.h"
 #include "bake/gltf/write_clustered_json.h"
+#include "runtime/load/coded_vertices.h"
 #include "runtime/load/predictors_json.h"
 #include "runtime/load/vertex_transfer.h"
 
@@ -70,7 +71,7 @@ void write_into(GltfContents& contents, const Scene& scene, const CompressedTran
                 contents, std::span(receivers.clusters).subspan(vertices.first_receiver, vertices.size()),
                 bases.clusters() > 256);
         for (std::size_t group = 0; group < group_count(receivers); ++group)
-            added["_PRT_WEIGHTS_" + std::to_string(group)] =
+            added[weights_name(group)] =
                 write_weights(contents, receivers, vertices.first_receiver, vertices.size(), group);
         attributes.push_back(std::move(added));
     }

@@ -17,19 +17,6 @@ namespace {
 
 constexpr const char* kFallback = "data:application/octet-stream;base64,AAAA";
 
-void erase_name(Json& json, const char* list) {
-    if (!json.contains(list))
-        return;
-    Json kept = Json::array();
-    for (const Json& name : json[list])
-        if (name != kMeshoptExtension)
-            kept.push_back(name);
-    if (kept.empty())
-        json.erase(list);
-    else
-        json[list] = kept;
-}
-
 /// Contents of a view, as far as the extension can compress them.
 struct ViewUse {
     bool vertices = false, indices = false, triangles = true, other = false;
@@ -149,7 +136,7 @@ Json without_meshopt(Json json) {
                 extension && extension->value("fallback", false))
                 buffer = {{"byteLength", 3}, {"uri", kFallback}};
         }
-    erase_name(json, "extensionsRequired");
+    erase_name(json, "extensionsRequired", kMeshoptExtension);
     return json;
 }
 

@@ -189,11 +189,8 @@ void for_each_source(Json& json, Visit&& visit) {
 /// Removes the data of nodes and of the file for instances that share transfer.
 void take_instances(Json& json, const std::function<void(Json&)>& take_view) {
     const auto take = [](Json& owner) {
-        if (!extension_of(owner, kInstancesExtension))
-            return;
-        owner["extensions"].erase(kInstancesExtension);
-        if (owner["extensions"].empty())
-            owner.erase("extensions");
+        if (extension_of(owner, kInstancesExtension))
+            erase_extension(owner, kInstancesExtension);
     };
     if (extension_of(json, kInstancesExtension))
         for_each_object(json["extensions"][kInstancesExtension], take_view);
@@ -276,9 +273,7 @@ void GltfContents::remove_volume() {
         if (object.contains("bufferView") && object["bufferView"].is_number_unsigned())
             views.insert(object["bufferView"].get<std::size_t>());
     });
-    json["extensions"].erase(kVolumeExtension);
-    if (json["extensions"].empty())
-        json.erase("extensions");
+    erase_extension(json, kVolumeExtension);
     remove_unused({}, std::move(views));
     drop_extension(json, kVolumeExtension);
 }

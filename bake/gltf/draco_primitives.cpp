@@ -24,12 +24,6 @@ struct Position {
     std::string name;
 };
 
-void erase_draco_extension(Json& primitive) {
-    primitive["extensions"].erase(kDracoExtension);
-    if (primitive["extensions"].empty())
-        primitive.erase("extensions");
-}
-
 /// Returns whether all compressed data also exists uncompressed.
 bool has_plain_data(const GltfContents& contents, const Json& primitive) {
     const auto is_plain = [&](const Json& reference) {
@@ -208,7 +202,7 @@ void decompress_primitives(GltfContents& contents) {
                 positions[extension->at("bufferView").get<std::size_t>()].push_back(
                     {primitive, contents.model.meshes[m].primitives[p], extension->at("attributes"),
                      "mesh " + std::to_string(m) + " primitive " + std::to_string(p)});
-            erase_draco_extension(primitive);
+            erase_extension(primitive, kDracoExtension);
         }
     Decompressor decompressor(contents);
     for (auto& [view, users] : positions)

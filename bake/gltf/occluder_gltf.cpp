@@ -24,9 +24,7 @@ void remove_occluders(GltfContents& contents) {
                                                              texels.contains("bufferView") &&
                                                              texels["bufferView"].is_number_unsigned())
                 views.insert(texels["bufferView"].get<std::size_t>());
-        node["extensions"].erase(kOccluderExtension);
-        if (node["extensions"].empty())
-            node.erase("extensions");
+        erase_extension(node, kOccluderExtension);
     }
     contents.remove_unused({}, std::move(views));
     drop_extension(contents.json, kOccluderExtension);

@@ -92,18 +92,13 @@ std::size_t repair_texcoords(GltfContents& contents, const GltfPrimitive& primit
     return replaced;
 }
 
-int attribute(const GltfPrimitive& primitive, const char* name) {
-    const auto found = primitive.attributes.find(name);
-    return found == primitive.attributes.end() ? -1 : found->second;
-}
-
 /// Replaces unusable normals of accessors by the normals of the triangles around their vertices.
 class NormalRepair {
 public:
     explicit NormalRepair(GltfContents& contents) : contents_(contents) {}
 
     void add(const GltfPrimitive& primitive) {
-        const int normal = attribute(primitive, "NORMAL"), position = attribute(primitive, "POSITION");
+        const int normal = attribute_of(primitive, "NORMAL"), position = attribute_of(primitive, "POSITION");
         if (normal < 0 || position < 0 || !is_triangle_mode(primitive.mode) ||
             !is_floats(contents_.model, normal, 3))
             return;

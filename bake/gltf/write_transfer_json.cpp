@@ -25,18 +25,6 @@ Json record_json(const BakeRecord& record) {
     return json;
 }
 
-Json terms_json(const TransferLayout& layout) {
-    Json terms = Json::array();
-    for (const TransferTerm& term : layout.terms) {
-        terms.push_back({{"kind", to_string(term.kind)}, {"channels", term.channels}});
-        if (!term.name.empty())
-            terms.back()["name"] = term.name;
-        if (!term.members.empty())
-            terms.back()["members"] = term.members;
-    }
-    return terms;
-}
-
 Json write_float_view(GltfContents& contents, std::span<const float> values) {
     return {{"bufferView", contents.add_buffer_view(std::as_bytes(values))}, {"componentType", kFloat}};
 }

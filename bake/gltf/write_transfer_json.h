@@ -12,9 +12,6 @@ namespace prt {
 
 Json record_json(const BakeRecord& record);
 
-/// Returns [{"kind": "direct", "channels": 1}, ...].
-Json terms_json(const TransferLayout& layout);
-
 Json write_float_view(GltfContents& contents, std::span<const float> values);
 Json write_half_view(GltfContents& contents, std::span<const float> values);
 

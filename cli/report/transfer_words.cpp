@@ -2,6 +2,7 @@
 
 #include "cli/report/transfer_words.h"
 
+#include "runtime/load/transfer_json.h"
 #include "runtime/support/counted.h"
 
 #include <fmt/core.h>
@@ -17,15 +18,7 @@ std::vector<std::string> predictor_names(const ClusteredBases& bases) {
 }
 
 Json terms_figures(const TransferLayout& layout) {
-    Json terms = Json::array();
-    for (const TransferTerm& term : layout.terms) {
-        terms.push_back({{"kind", to_string(term.kind)}, {"channels", term.channels}});
-        if (!term.name.empty())
-            terms.back()["name"] = term.name;
-        if (!term.members.empty())
-            terms.back()["members"] = term.members;
-    }
-    return terms;
+    return terms_json(layout); // as in a file
 }
 
 std::string terms_in_words(const TransferLayout& layout) {

@@ -129,8 +129,8 @@ WordLayout word_layout(const GltfData& data, const Json& extension) {
     return {cluster_layouts(transfer.bases), transfer.receivers.cluster_bits, transfer.receivers.words};
 }
 
-std::string weights_name(std::size_t word) {
-    return "_PRT_WEIGHTS_" + std::to_string(word);
+std::string weights_name(std::size_t group) {
+    return "_PRT_WEIGHTS_" + std::to_string(group);
 }
 
 std::size_t vertex_count(const GltfModel& model, const GltfPrimitive& primitive) {

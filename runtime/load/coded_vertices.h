@@ -15,8 +15,8 @@ namespace prt {
 
 /// Returns the layout of the words of PRTKIT_clustered_pca, which must have packed weights.
 WordLayout word_layout(const GltfData& data, const Json& extension);
-/// Returns the name of the attribute that holds a word.
-std::string weights_name(std::size_t word);
+/// Returns the name of an attribute of weights: of a word, or of four floats.
+std::string weights_name(std::size_t group);
 /// Returns the number of vertices of a primitive with words.
 std::size_t vertex_count(const GltfModel& model, const GltfPrimitive& primitive);
 

@@ -26,10 +26,7 @@ std::set<int> lit_again(GltfData& data) {
     for (std::size_t m = 0; m < materials.size(); ++m) {
         if (!is_unlit_for_fallback(materials[m]))
             continue;
-        Json& extensions = materials[m]["extensions"];
-        extensions.erase(kUnlitExtension);
-        if (extensions.empty())
-            materials[m].erase("extensions");
+        erase_extension(materials[m], kUnlitExtension);
         lit.insert(static_cast<int>(m));
     }
     if (std::ranges::none_of(materials, is_unlit))

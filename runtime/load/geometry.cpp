@@ -47,14 +47,9 @@ void check_count(std::size_t count, std::size_t vertices, const char* attribute)
                     " elements, but the primitive has " + counted(vertices, "vertex", "vertices"));
 }
 
-int attribute(const GltfPrimitive& primitive, const std::string& name) {
-    const auto found = primitive.attributes.find(name);
-    return found == primitive.attributes.end() ? -1 : found->second;
-}
-
 void read_texcoords(const GltfModel& model, const GltfPrimitive& primitive, VertexArray& vertices) {
     for (int set = 0;; ++set) {
-        const int accessor = attribute(primitive, "TEXCOORD_" + std::to_string(set));
+        const int accessor = attribute_of(primitive, "TEXCOORD_" + std::to_string(set));
         if (accessor < 0)
             return;
         vertices.texcoords.push_back(read_vectors<glm::vec2>(model, accessor));
@@ -66,7 +61,7 @@ void read_texcoords(const GltfModel& model, const GltfPrimitive& primitive, Vert
 }
 
 void read_colors(const GltfModel& model, const GltfPrimitive& primitive, VertexArray& vertices) {
-    const int accessor = attribute(primitive, "COLOR_0");
+    const int accessor = attribute_of(primitive, "COLOR_0");
     if (accessor < 0)
         return;
     if (get_accessor(model, accessor).components == 4)
@@ -226,7 +221,7 @@ private:
     }
 
     bool has_vertices(const GltfPrimitive& file) const {
-        const int position = attribute(file, "POSITION");
+        const int position = attribute_of(file, "POSITION");
         const auto index = static_cast<std::size_t>(position);
         return position >= 0 && (index >= model_.accessors.size() || model_.accessors[index].count > 0);
     }
@@ -248,7 +243,7 @@ private:
                             {},
                             name_of(model_, transform.node)};
         // Flat normals depend on the triangles, so that such a primitive cannot share its vertices.
-        const int alone = attribute(file, "NORMAL") < 0 ? index : -1;
+        const int alone = attribute_of(file, "NORMAL") < 0 ? index : -1;
         const auto [vertices_of, is_new] =
             shared_.of(transform.node, alone, file, scene_.vertex_arrays.size());
         primitive.vertices = vertices_of;
@@ -267,8 +262,8 @@ private:
     void add_vertices(const NodeTransform& node_transform, const GltfPrimitive& file, const GltfMesh& mesh) {
         const GltfNode& node = model_.nodes[static_cast<std::size_t>(node_transform.node)];
         VertexArray vertices;
-        vertices.positions = read_vectors<glm::vec3>(model_, attribute(file, "POSITION"));
-        if (const int normals = attribute(file, "NORMAL"); normals >= 0) {
+        vertices.positions = read_vectors<glm::vec3>(model_, attribute_of(file, "POSITION"));
+        if (const int normals = attribute_of(file, "NORMAL"); normals >= 0) {
             vertices.normals = read_vectors<glm::vec3>(model_, normals);
             check_count(vertices.normals.size(), vertices.size(), "NORMAL");
         }

@@ -104,6 +104,11 @@ auto read_list(const Json& json, const char* list, const char* element, Read rea
 
 } // namespace
 
+int attribute_of(const GltfPrimitive& primitive, const std::string& name) {
+    const auto found = primitive.attributes.find(name);
+    return found == primitive.attributes.end() ? -1 : found->second;
+}
+
 GltfAccessor read_accessor(const Json& json) {
     GltfAccessor accessor;
     accessor.bufferView = json.value("bufferView", -1);

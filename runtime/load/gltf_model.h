@@ -104,6 +104,9 @@ struct GltfModel {
 /// is missing or has a wrong type.
 GltfModel read_model(const Json& json);
 
+/// Returns the accessor of an attribute; -1 if the primitive lacks it.
+int attribute_of(const GltfPrimitive& primitive, const std::string& name);
+
 /// Reads one accessor. Throws `Error` if a member is missing or has a wrong type.
 GltfAccessor read_accessor(const Json& json);
 

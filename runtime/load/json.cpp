@@ -39,19 +39,22 @@ void erase_extension(Json& object, const char* name) {
         object.erase("extensions");
 }
 
+void erase_name(Json& json, const char* list, const std::string& name) {
+    if (!json.contains(list))
+        return;
+    Json kept = Json::array();
+    for (const Json& other : json[list])
+        if (other != name)
+            kept.push_back(other);
+    if (kept.empty())
+        json.erase(list);
+    else
+        json[list] = std::move(kept);
+}
+
 void drop_extension(Json& json, const std::string& name) {
-    for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
-        if (!json.contains(list))
-            continue;
-        Json kept = Json::array();
-        for (const Json& other : json[list])
-            if (other != name)
-                kept.push_back(other);
-        if (kept.empty())
-            json.erase(list);
-        else
-            json[list] = std::move(kept);
-    }
+    erase_name(json, "extensionsUsed", name);
+    erase_name(json, "extensionsRequired", name);
 }
 
 std::string in_plain_words(const std::exception& error) {

@@ -37,6 +37,9 @@ const Json* extension_of(const Json& object, const char* name);
 Json& extensions_of(Json& object);
 /// Removes the extension `name` of `object`, and `extensions` if it was the last one.
 void erase_extension(Json& object, const char* name);
+/// Removes `name` from `list`, extensionsUsed or extensionsRequired of a file, and the list if it was the
+/// last name.
+void erase_name(Json& json, const char* list, const std::string& name);
 /// Removes `name` from extensionsUsed and extensionsRequired of a file.
 void drop_extension(Json& json, const std::string& name);
 

@@ -145,20 +145,4 @@ Model load_model(const std::filesystem::path& path) {
     return parse_model(read_file(path), path);
 }
 
-std::vector<RelitInstance> relit_instances(std::span<const FileInstance> instances, const Scene& stored,
-                                           const ClusteredTransfer& transfer, const glm::dvec3& seen_from) {
-    std::vector<ConstantRows> of_arrays;
-    for (const VertexArray& vertices : stored.vertex_arrays)
-        of_arrays.push_back(rows_of(transfer, vertices.first_receiver, vertices.size()));
-    std::vector<RelitInstance> computed;
-    for (const FileInstance& instance : instances) {
-        RelitInstance one{instance.placed, {}};
-        one.placed.box.middle = glm::vec3(glm::dvec3(one.placed.box.middle) - (stored.origin - seen_from));
-        for (const std::size_t array : instance.stored_arrays)
-            one.rows = joined(one.rows, of_arrays[array]);
-        computed.push_back(one);
-    }
-    return computed;
-}
-
 } // namespace prt

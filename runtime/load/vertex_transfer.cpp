@@ -5,6 +5,7 @@
 #include "runtime/load/allowance.h"
 #include "runtime/load/changed_file.h"
 #include "runtime/load/clustered_json.h"
+#include "runtime/load/coded_vertices.h"
 #include "runtime/load/fallback.h"
 #include "runtime/load/own_attributes.h"
 #include "runtime/load/predictors_json.h"
@@ -73,7 +74,7 @@ void read_weights(const GltfData& data, const Json& attributes, std::size_t firs
                   ClusteredReceivers& receivers) {
     const std::size_t size = group_bytes(receivers.format), stride = receivers.stride();
     for (std::size_t group = 0; group < group_count(receivers); ++group) {
-        const std::string name = "_PRT_WEIGHTS_" + std::to_string(group);
+        const std::string name = weights_name(group);
         const int accessor = accessor_of(attributes, name);
         check_weight_accessor(name, data.model.accessors.at(static_cast<std::size_t>(accessor)),
                               receivers.format, count);
@@ -145,13 +146,12 @@ std::optional<CompressedTransfer> read_clustered(const GltfData& data, const Sce
     compressed.record = read_record(extension->value("bake", Json::object()));
     read_predictors(data, scene, *extension, bases);
     read_bases(data, extension->at("bases"), bases);
-    const bool packed = extension->contains("packing");
-    if (packed)
+    if (extension->contains("packing")) {
         read_packing(data, extension->at("packing"), compressed.transfer);
-    else
+    } else {
         receivers.components = (bases.max_components() + 3) / 4 * 4;
-    if (!packed)
         receivers.clusters.resize(scene.receivers());
+    }
     check_predictors(scene, bases.predictors);
     TransferOfVertices read;
     for (const Primitive& primitive : scene.primitives) {
