@@ -3,6 +3,7 @@
 
 #include "prt/core/error.h"
 #include "runtime/load/own_attributes.h"
+#include "runtime/load/receiver_sets.h"
 #include "runtime/support/printable.h"
 
 #include <algorithm>
@@ -172,9 +173,45 @@ void erase_views(GltfContents& contents, const std::set<std::size_t>& views) {
     });
 }
 
-/// Extensions for transfer of surfaces.
-constexpr const char* kOwnExtensions[] = {kTransferExtension, kClusteredExtension, kLightmapExtension,
-                                          kLobeExtension};
+/// Extensions for transfer of surfaces, at the top level and at primitives.
+constexpr const char* kSurfaceExtensions[] = {kTransferExtension, kLobeExtension, kFormerExtensions[0],
+                                              kFormerExtensions[1], kFormerExtensions[2]};
+
+/// Removes the extension `name` of `owner`, if it has one; calls `take` with its value first.
+template <class Take>
+void take_extension(Json& owner, const char* name, Take&& take) {
+    if (!extension_of(owner, name))
+        return;
+    take(owner["extensions"][name]);
+    erase_extension(owner, name);
+}
+
+/// Removes the sets of probes, or all others; calls `take` with each first. Transfer of a former version
+/// counts as transfer of surfaces.
+template <class Take>
+void take_sets(Json& json, bool of_probes, Take&& take) {
+    const auto keep_others = [&](Json& sets) {
+        Json kept = Json::array();
+        for (Json& set : sets) {
+            const bool probes =
+                set.is_object() && set.value("receivers", Json()) == to_string(ReceiverKind::probes);
+            if (probes != of_probes)
+                kept.push_back(std::move(set));
+            else
+                take(set);
+        }
+        sets = std::move(kept);
+        return !sets.empty();
+    };
+    if (!extension_of(json, kTransferExtension))
+        return;
+    Json& extension = json["extensions"][kTransferExtension];
+    const bool has_sets = extension.contains("sets") && extension["sets"].is_array();
+    if (has_sets ? keep_others(extension["sets"]) : of_probes)
+        return;
+    take(extension);
+    erase_extension(json, kTransferExtension);
+}
 
 /// Calls `visit` with every member that names the image of a texture.
 template <class Visit>
@@ -186,18 +223,23 @@ void for_each_source(Json& json, Visit&& visit) {
         });
 }
 
-/// Removes the data of nodes and of the file for instances that share transfer.
-void take_instances(Json& json, const std::function<void(Json&)>& take_view) {
-    const auto take = [](Json& owner) {
-        if (extension_of(owner, kInstancesExtension))
-            erase_extension(owner, kInstancesExtension);
+/// Returns a visitor of objects that adds the buffer views which they name to `views`.
+auto collect_views(std::set<std::size_t>& views) {
+    return [&views](const Json& object) {
+        if (object.contains("bufferView") && object["bufferView"].is_number_unsigned())
+            views.insert(object["bufferView"].get<std::size_t>());
     };
-    if (extension_of(json, kInstancesExtension))
-        for_each_object(json["extensions"][kInstancesExtension], take_view);
-    take(json);
-    if (json.contains("nodes"))
-        for (Json& node : json["nodes"])
-            take(node);
+}
+
+/// Adds the images of lightmap words in `set` to `images`.
+void collect_images(const Json& set, std::set<std::size_t>& images) {
+    if (!set.is_object() || !set.contains("maps"))
+        return;
+    for (const Json& map : set["maps"])
+        if (map.is_object() && map.contains("images"))
+            for (const Json& image : map["images"])
+                if (image.is_number_unsigned())
+                    images.insert(image.get<std::size_t>());
 }
 
 /// Removes unused elements of `images`; adds their views to `views`.
@@ -265,49 +307,34 @@ void GltfContents::cut_unused_bytes() {
         cut_bytes(*this, {});
 }
 
+void GltfContents::drop_unused_extensions() {
+    bool used = extension_of(json, kTransferExtension) != nullptr;
+    for_each_primitive(
+        json, [&](const Json& primitive) { used = used || extension_of(primitive, kTransferExtension); });
+    if (!used)
+        drop_extension(json, kTransferExtension);
+}
+
 void GltfContents::remove_volume() {
-    if (!json.contains("extensions") || !json["extensions"].contains(kVolumeExtension))
-        return;
     std::set<std::size_t> views;
-    for_each_object(json["extensions"][kVolumeExtension], [&](Json& object) {
-        if (object.contains("bufferView") && object["bufferView"].is_number_unsigned())
-            views.insert(object["bufferView"].get<std::size_t>());
-    });
-    erase_extension(json, kVolumeExtension);
+    take_sets(json, true, [&](Json& set) { for_each_object(set, collect_views(views)); });
     remove_unused({}, std::move(views));
-    drop_extension(json, kVolumeExtension);
+    drop_unused_extensions();
 }
 
 void GltfContents::remove_transfer() {
-    std::set<std::size_t> views, accessors;
-    const auto take_view = [&](Json& object) {
-        if (object.contains("bufferView") && object["bufferView"].is_number_unsigned())
-            views.insert(object["bufferView"].get<std::size_t>());
+    std::set<std::size_t> views, accessors, of_words;
+    const auto take = [&](Json& data) {
+        for_each_object(data, collect_views(views));
+        collect_images(data, of_words);
     };
-    std::set<std::size_t> of_lightmaps;
-    const auto take_images = [&](const Json& extension) { // images of lightmap words
-        if (extension.contains("maps"))
-            for (const Json& map : extension["maps"])
-                if (map.is_object() && map.contains("images"))
-                    for (const Json& image : map["images"])
-                        if (image.is_number_unsigned())
-                            of_lightmaps.insert(image.get<std::size_t>());
-    };
-    const auto take_extensions = [&](Json& owner) {
-        if (!owner.contains("extensions"))
-            return;
-        for (const char* name : kOwnExtensions) {
-            if (!owner["extensions"].contains(name))
-                continue;
-            for_each_object(owner["extensions"][name], take_view);
-            take_images(owner["extensions"][name]);
-            owner["extensions"].erase(name);
-        }
-        if (owner["extensions"].empty())
-            owner.erase("extensions");
-    };
+    take_sets(json, false, take);
+    for (const char* name : kSurfaceExtensions)
+        if (name != kTransferExtension)
+            take_extension(json, name, take);
     for_each_primitive(json, [&](Json& primitive) {
-        take_extensions(primitive);
+        for (const char* name : kSurfaceExtensions)
+            take_extension(primitive, name, take);
         Json kept = Json::object();
         for (auto it = primitive["attributes"].begin(); it != primitive["attributes"].end(); ++it) {
             if (is_own_attribute(it.key()))
@@ -317,15 +344,19 @@ void GltfContents::remove_transfer() {
         }
         primitive["attributes"] = std::move(kept);
     });
-    take_extensions(json);
-    if (separate.empty()) // otherwise the written data belongs to it
-        take_instances(json, take_view);
-    remove_images(*this, std::move(of_lightmaps), views);
-    remove_unused(std::move(accessors), std::move(views));
-    for (const char* name : kOwnExtensions)
-        drop_extension(json, name);
-    if (separate.empty())
+    if (separate.empty()) { // otherwise the written data belongs to it
+        take_extension(json, kInstancesExtension, take);
+        if (json.contains("nodes"))
+            for (Json& node : json["nodes"])
+                take_extension(node, kInstancesExtension, take);
         drop_extension(json, kInstancesExtension);
+    }
+    remove_images(*this, std::move(of_words), views);
+    remove_unused(std::move(accessors), std::move(views));
+    for (const char* name : kSurfaceExtensions)
+        if (name != kTransferExtension)
+            drop_extension(json, name);
+    drop_unused_extensions();
 }
 
 void GltfContents::remove_unused(std::set<std::size_t> accessors, std::set<std::size_t> views) {

@@ -43,6 +43,9 @@ struct GltfContents : GltfData {
     void remove_volume();
     /// Removes unreferenced elements of `accessors` and `views`, with their data, and updates `model`.
     void remove_unused(std::set<std::size_t> accessors, std::set<std::size_t> views = {});
+
+private:
+    void drop_unused_extensions();
 };
 
 } // namespace prt

@@ -23,6 +23,7 @@
 #include "runtime/load/glb.h"
 #include "runtime/load/json_text.h"
 #include "runtime/load/meshopt_views.h"
+#include "runtime/load/receiver_sets.h"
 #include "runtime/load/supported_extensions.h"
 #include "runtime/support/counted.h"
 #include "runtime/support/file.h"
@@ -304,7 +305,7 @@ std::vector<std::byte> compressed_glb(const GltfContents& contents) {
 /// Returns the smaller of the files with coded words and with compressed attributes.
 std::vector<std::byte> smallest_glb(const GltfContents& contents) {
     std::vector<std::byte> file = compressed_glb(contents);
-    if (!extension_of(contents.json, kClusteredExtension))
+    if (!find_set(contents, ReceiverKind::vertices, Coding::clustered))
         return file;
     GltfData current;
     current.json = contents.json;

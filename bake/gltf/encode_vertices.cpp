@@ -3,6 +3,7 @@
 
 #include "runtime/load/accessor.h"
 #include "runtime/load/coded_vertices.h"
+#include "runtime/load/receiver_sets.h"
 
 #include <cstring>
 #include <map>
@@ -48,10 +49,10 @@ GatheredWords gather_words(const GltfData& read, std::size_t stride) {
 } // namespace
 
 std::optional<GltfContents> with_coded_vertices(const GltfContents& contents, const GltfData& read) {
-    const Json* extension = extension_of(read.json, kClusteredExtension);
-    if (!extension || !extension->contains("packing"))
+    const Json* set = find_set(read, ReceiverKind::vertices, Coding::clustered);
+    if (!set || !set->contains("packing"))
         return std::nullopt;
-    const WordLayout layout = word_layout(read, *extension);
+    const WordLayout layout = word_layout(read, *set);
     const auto stride = static_cast<std::size_t>(layout.words);
     const GatheredWords gathered = gather_words(read, stride);
     if (gathered.words.empty() || !can_code_words(layout, gathered.words))
@@ -77,15 +78,17 @@ std::optional<GltfContents> with_coded_vertices(const GltfContents& contents, co
             replaced.insert(primitive["attributes"].at(weights_name(w)).get<std::size_t>());
             primitive["attributes"].erase(weights_name(w));
         }
-        extensions_of(primitive)[kClusteredExtension] = {{"firstVertex", found->second}};
+        member(extensions_of(primitive), kTransferExtension, Json::value_t::object)["firstVertex"] =
+            found->second;
     });
     WordCode code = encode_words(layout, mesh.neighbors(), gathered.words);
     std::vector<std::byte>& bytes = code.frequencies.bits;
     const std::size_t split = bytes.size();
     bytes.insert(bytes.end(), code.bits.begin(), code.bits.end());
-    coded->json["extensions"][kClusteredExtension]["packing"]["words"] = {
+    const std::size_t view = coded->add_buffer_view(bytes);
+    (*find_set_to_decode(*coded))["packing"]["words"] = {
         {"vertices", vertices},
-        {"bufferView", coded->add_buffer_view(bytes)},
+        {"bufferView", view},
         {"frequencies", {{"byteLength", split}, {"drops", code.frequencies.drops}}}};
     coded->remove_unused(std::move(replaced));
     return coded;

@@ -3,8 +3,9 @@
 #include "bake/gltf/vertex_fallback.h"
 
 #include "bake/gltf/make_meshes_unique.h"
-#include "bake/gltf/write_transfer_json.h"
+#include "bake/gltf/write_set.h"
 #include "runtime/load/fallback.h"
+#include "runtime/load/receiver_sets.h"
 
 #include <glm/common.hpp>
 #include <glm/gtc/type_precision.hpp>
@@ -128,10 +129,10 @@ std::size_t show_light(GltfContents& contents, const Scene& scene, std::span<con
 
 std::size_t write_into(GltfContents& contents, const Scene& scene, std::span<const glm::vec3> radiance,
                        float exposure) {
-    if (!extension_of(contents.json, kClusteredExtension))
+    if (!find_set(contents, ReceiverKind::vertices, Coding::clustered))
         throw Error("the file has no compressed transfer at vertices; a fallback needs it");
     const std::size_t count = show_light(contents, scene, radiance, exposure, UnlitUse::fallback);
-    extensions_of(contents.json)[kClusteredExtension]["fallback"] = {{"exposure", exposure}};
+    (*find_set_to_decode(contents))["fallback"] = {{"exposure", exposure}};
     return count;
 }
 

@@ -2,7 +2,7 @@
 #include "prt/gltf/transfer_gltf.h"
 
 #include "bake/gltf/contents.h"
-#include "bake/gltf/write_transfer_json.h"
+#include "bake/gltf/write_set.h"
 #include "prt/core/error.h"
 #include "runtime/load/accessor.h"
 #include "runtime/load/node_transforms.h"

@@ -1,7 +1,7 @@
 // Reads and writes factors of instances in glTF files: PRTKIT_instances of docs/format.md.
 #include "prt/gltf/transfer_gltf.h"
 
-#include "bake/gltf/write_transfer_json.h"
+#include "bake/gltf/write_set.h"
 #include "runtime/load/allowance.h"
 #include "runtime/load/node_transforms.h"
 #include "runtime/load/shared_instances.h"

@@ -2,7 +2,7 @@
 #include "prt/gltf/levels.h"
 
 #include "bake/gltf/extraction.h"
-#include "bake/gltf/write_transfer_json.h"
+#include "bake/gltf/write_set.h"
 #include "runtime/load/fallback.h"
 #include "runtime/load/own_attributes.h"
 
@@ -42,9 +42,8 @@ LeveledNode leveled_node(const GltfContents& contents, const Geometry& extractio
 }
 
 bool has_transfer(const Json& primitive) {
-    for (const char* name : {kTransferExtension, kClusteredExtension})
-        if (extension_of(primitive, name))
-            return true;
+    if (extension_of(primitive, kTransferExtension))
+        return true;
     return std::ranges::any_of(primitive["attributes"].items(), [](const auto& attribute) {
         return is_own_attribute(attribute.key()) && attribute.key() != kOtherColors;
     });

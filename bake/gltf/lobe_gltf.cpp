@@ -3,7 +3,7 @@
 #include "prt/gltf/transfer_gltf.h"
 
 #include "bake/gltf/make_meshes_unique.h"
-#include "bake/gltf/write_transfer_json.h"
+#include "bake/gltf/write_set.h"
 #include "runtime/load/lobe_transfer.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 
 #include "prt/gltf/transfer_gltf.h"
 
-#include "bake/gltf/write_transfer_json.h"
+#include "bake/gltf/write_set.h"
 #include "runtime/load/occluder_nodes.h"
 
 #include <set>

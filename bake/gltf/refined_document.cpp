@@ -6,7 +6,7 @@
 #include "bake/gltf/midpoint_accessor.h"
 #include "bake/gltf/midpoint_joints.h"
 #include "bake/gltf/reparse.h"
-#include "bake/gltf/write_transfer_json.h"
+#include "bake/gltf/write_set.h"
 
 #include <map>
 #include <optional>

@@ -4,7 +4,7 @@
 #include "bake/gltf/contents.h"
 #include "bake/gltf/gathered_accessor.h"
 #include "bake/gltf/make_meshes_unique.h"
-#include "bake/gltf/write_transfer_json.h"
+#include "bake/gltf/write_set.h"
 #include "prt/core/error.h"
 #include "runtime/load/accessor.h"
 

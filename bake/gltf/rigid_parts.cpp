@@ -2,7 +2,7 @@
 
 #include "bake/gltf/rigid_parts.h"
 
-#include "bake/gltf/write_transfer_json.h"
+#include "bake/gltf/write_set.h"
 #include "runtime/load/accessor.h"
 #include "runtime/load/node_transforms.h"
 

@@ -5,7 +5,7 @@
 #include "bake/gltf/make_meshes_unique.h"
 #include "bake/gltf/material_choices.h"
 #include "bake/gltf/reparse.h"
-#include "bake/gltf/write_transfer_json.h"
+#include "bake/gltf/write_set.h"
 #include "prt/core/error.h"
 #include "runtime/load/accessor.h"
 

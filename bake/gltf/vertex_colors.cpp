@@ -3,7 +3,7 @@
 #include "prt/gltf/gltf.h"
 
 #include "bake/gltf/make_meshes_unique.h"
-#include "bake/gltf/write_transfer_json.h"
+#include "bake/gltf/write_set.h"
 
 #include <algorithm>
 

@@ -5,7 +5,7 @@
 #include "bake/gltf/gathered_accessor.h"
 #include "bake/gltf/make_meshes_unique.h"
 #include "bake/gltf/reparse.h"
-#include "bake/gltf/write_transfer_json.h"
+#include "bake/gltf/write_set.h"
 
 #include <algorithm>
 #include <set>

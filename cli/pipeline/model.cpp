@@ -82,9 +82,6 @@ SceneFile scene_file_of(GltfDocument document, const Path& path, const Notify& n
                     ? std::exchange(instanced->baked, {})
                     : BakedTransfer{decode(instanced->compressed->transfer), instanced->compressed->record};
         baked->transfer = expanded(document, scene, instanced->stored, baked->transfer);
-    } else if (!instanced) {
-        baked = read_transfer(document, scene);
-        compressed = read_clustered(document, scene);
     }
     std::optional<LightmapOfFile> lightmap;
     if (std::optional<BakedLightmap> raw = read_lightmap(document, scene)) {
@@ -96,6 +93,9 @@ SceneFile scene_file_of(GltfDocument document, const Path& path, const Notify& n
         CompressedLightmap shipped = about(path, [&] { return decoded_lightmap(std::move(*encoded)); });
         lightmap = {std::move(shipped.layout)};
         compressed = std::move(shipped.compressed);
+    } else if (!instanced) {
+        baked = read_transfer(document, scene);
+        compressed = read_clustered(document, scene);
     }
     if (!baked && !compressed) // with transfer, the notices were shown when it was baked
         send(notify, path, scene.notices);

@@ -2,7 +2,7 @@
 
 #include "cli/report/transfer_words.h"
 
-#include "runtime/load/transfer_json.h"
+#include "bake/gltf/write_set.h"
 #include "runtime/support/counted.h"
 
 #include <fmt/core.h>

@@ -58,8 +58,7 @@ CompressedVolumeResult compress_volume(const BakedVolume& volume, CompressOption
     options.predictors = PredictorChoice::none;
     options.seam_weight = 0;
     CompressResult result = compress(probes, {.areas = of_probes}, options, progress);
-    return {{volume.grid, volume.order, volume.visibility, {std::move(result.transfer), volume.baked.record}},
-            std::move(result.statistics)};
+    return {{volume, {std::move(result.transfer), volume.baked.record}}, std::move(result.statistics)};
 }
 
 } // namespace prt

@@ -1,11 +1,14 @@
-// Reads coded words of vertices in glTF files: PRTKIT_clustered_pca of docs/format.md.
+// Reads coded words of vertices in glTF files: docs/format.md.
 #include "runtime/load/coded_vertices.h"
 
 #include "prt/core/error.h"
 #include "runtime/load/accessor.h"
 #include "runtime/load/allowance.h"
 #include "runtime/load/changed_file.h"
-#include "runtime/load/clustered_json.h"
+#include "runtime/load/clustered_set.h"
+#include "runtime/load/extensions.h"
+#include "runtime/load/receiver_sets.h"
+#include "runtime/load/transfer_json.h"
 #include "runtime/load/triangles.h"
 
 #include <climits>
@@ -22,8 +25,8 @@ constexpr double kBytesPerVertex = 120;
 
 /// Returns the first vertex of the coded words of a primitive; empty if it has none.
 std::optional<std::size_t> first_vertex(const Json& primitive) {
-    const Json* extension = extension_of(primitive, kClusteredExtension);
-    if (!extension)
+    const Json* extension = extension_of(primitive, kTransferExtension);
+    if (!extension || !extension->contains("firstVertex"))
         return std::nullopt;
     return static_cast<std::size_t>(whole_number(extension->at("firstVertex"), "firstVertex", 0, INT_MAX));
 }
@@ -116,16 +119,17 @@ void add_attributes(GltfData& data, std::size_t view, std::size_t words) {
             primitive["attributes"][weights_name(w)] = entry->second + w;
             model.attributes[weights_name(w)] = static_cast<int>(entry->second + w);
         }
-        erase_extension(primitive, kClusteredExtension);
+        Json& extension = primitive["extensions"][kTransferExtension];
+        extension.erase("firstVertex");
+        if (extension.empty())
+            erase_extension(primitive, kTransferExtension);
     });
 }
 
 } // namespace
 
-WordLayout word_layout(const GltfData& data, const Json& extension) {
-    ClusteredTransfer transfer;
-    transfer.bases = read_clusters_of(extension);
-    read_packing(data, extension.at("packing"), transfer);
+WordLayout word_layout(const GltfData& data, const Json& set) {
+    const ClusteredTransfer transfer = read_clusters(data, set);
     return {cluster_layouts(transfer.bases), transfer.receivers.cluster_bits, transfer.receivers.words};
 }
 
@@ -151,16 +155,16 @@ void WordMesh::add(const GltfModel& model, const GltfPrimitive& primitive, std::
 }
 
 bool decode_vertices(GltfData& data) {
-    const Json* extension = find_extension(data, kClusteredExtension, kClusteredVersion);
-    if (!extension || !extension->contains("packing") || !extension->at("packing").contains("words"))
+    Json* set = find_set_to_decode(data);
+    if (!set || !set->contains("packing") || !set->at("packing").contains("words"))
         return false;
-    const Json json = extension->at("packing")["words"];
-    const WordLayout layout = word_layout(data, *extension);
+    const Json json = set->at("packing")["words"];
+    (*set)["packing"].erase("words");
+    const WordLayout layout = word_layout(data, *set);
     const auto view = json.at("bufferView").get<std::size_t>();
     const auto words = static_cast<std::size_t>(layout.words);
     replace_view(data, view, decoded(data, json, layout), 4 * words);
     add_attributes(data, view, words);
-    data.json["extensions"][kClusteredExtension]["packing"].erase("words");
     return true;
 }
 

@@ -13,8 +13,8 @@
 
 namespace prt {
 
-/// Returns the layout of the words of PRTKIT_clustered_pca, which must have packed weights.
-WordLayout word_layout(const GltfData& data, const Json& extension);
+/// Returns the layout of the words of a set of vertices, which must have packed weights.
+WordLayout word_layout(const GltfData& data, const Json& set);
 /// Returns the name of an attribute of weights: of a word, or of four floats.
 std::string weights_name(std::size_t group);
 /// Returns the number of vertices of a primitive with words.

@@ -2,7 +2,7 @@
 #include "runtime/load/fallback.h"
 
 #include "prt/core/error.h"
-#include "runtime/load/extensions.h"
+#include "runtime/load/receiver_sets.h"
 
 #include <algorithm>
 #include <map>
@@ -63,13 +63,13 @@ bool is_unlit(const Json& material) {
 }
 
 std::set<int> set_fallback_aside(GltfData& data) {
-    const Json* extension = extension_of(data.json, kClusteredExtension);
-    if (!extension || !extension->contains("fallback"))
+    Json* set = find_set_to_decode(data);
+    if (!set || !set->contains("fallback"))
         return {};
-    const Json& exposure = extension->at("fallback").at("exposure");
+    const Json& exposure = set->at("fallback").at("exposure");
     if (!exposure.is_number() || !(exposure.get<double>() > 0))
         throw Error("the exposure of the fallback is not a number greater than 0");
-    data.json["extensions"][kClusteredExtension].erase("fallback");
+    set->erase("fallback");
     std::set<int> lit = lit_again(data);
     for (std::size_t m = 0; m < data.model.meshes.size(); ++m)
         for (std::size_t p = 0; p < data.model.meshes[m].primitives.size(); ++p) {

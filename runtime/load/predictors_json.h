@@ -1,6 +1,6 @@
 #pragma once
 
-// Predictors and offsets of PRTKIT_clustered_pca (docs/format.md).
+// Predictors and offsets of clustered transfer (docs/format.md).
 
 #include "runtime/load/transfer_json.h"
 

@@ -1,14 +1,15 @@
-// Reads compressed transfer of probes: PRTKIT_transfer_volume of docs/format.md.
+// Reads compressed transfer of probes: docs/format.md.
 #include "runtime/load/probe_transfer.h"
 
 #include "runtime/load/accessor.h"
 #include "runtime/load/allowance.h"
-#include "runtime/load/clustered_json.h"
+#include "runtime/load/clustered_set.h"
+#include "runtime/load/receiver_sets.h"
+#include "runtime/load/transfer_json.h"
 #include "runtime/support/counted.h"
 
 #include <cstring>
 #include <string>
-#include <utility>
 
 namespace prt {
 namespace {
@@ -61,39 +62,30 @@ std::vector<ProbeVisibility> read_visibility(const GltfData& data, const Json& j
     return visibility;
 }
 
-CompressedVolume read_words(const GltfData& data, const Scene& scene, const Json& extension) {
-    ProbeLayout layout = read_probe_layout(data, scene, extension);
-    const std::size_t probes = layout.visibility.size();
-    CompressedVolume volume{std::move(layout.grid), layout.order, std::move(layout.visibility), {}};
-    ClusteredTransfer& transfer = volume.compressed.transfer;
-    transfer.bases = read_clusters_of(extension, static_cast<std::size_t>(coefficient_count(volume.order)));
-    volume.compressed.record = read_record(extension.value("bake", Json::object()));
-    read_bases(data, extension.at("bases"), transfer.bases);
-    read_packing(data, extension.at("packing"), transfer);
-    ClusteredReceivers& receivers = transfer.receivers;
-    receivers.weights = bytes_of(data, extension.at("words"));
-    if (receivers.weights.size() != probes * receivers.stride())
-        throw Error("the size of the packed weights of the volume does not match its " +
-                    counted(probes, "probe"));
-    check_clusters(transfer.bases.clusters(), 0, probes, "probe", receivers);
-    return volume;
-}
-
 } // namespace
 
-ProbeLayout read_probe_layout(const GltfData& data, const Scene& scene, const Json& extension) {
+ProbeLayout read_probe_layout(const GltfData& data, const Scene& scene, const Json& set) {
     ProbeLayout layout;
-    layout.order = whole_number(extension.at("incidentOrder"), "incidentOrder", 2, kMaxIncidentOrder);
-    layout.grid = read_grid(data, scene, extension);
-    layout.visibility = read_visibility(data, extension.at("visibility"), probes_of(layout.grid).size());
+    layout.order = whole_number(set.at("incidentOrder"), "incidentOrder", 2, kMaxIncidentOrder);
+    layout.grid = read_grid(data, scene, set);
+    layout.visibility = read_visibility(data, set.at("visibility"), probes_of(layout.grid).size());
     return layout;
 }
 
 std::optional<CompressedVolume> read_compressed_volume(const GltfData& data, const Scene& scene) {
-    const Json* extension = find_extension(data, kVolumeExtension, kVolumeVersion);
-    if (!extension || extension->contains("raw"))
+    const Json* set = find_set(data, ReceiverKind::probes, Coding::clustered);
+    if (!set)
         return std::nullopt;
-    return read_words(data, scene, *extension);
+    CompressedVolume volume{read_probe_layout(data, scene, *set), {}};
+    volume.compressed = read_clustered_set(data, scene, *set, volume.coefficients());
+    ClusteredReceivers& receivers = volume.compressed.transfer.receivers;
+    receivers.weights = bytes_of(data, set->at("words"));
+    const std::size_t probes = volume.visibility.size();
+    if (receivers.weights.size() != probes * receivers.stride())
+        throw Error("the size of the packed weights of the volume does not match its " +
+                    counted(probes, "probe"));
+    check_clusters(volume.compressed.transfer.bases.clusters(), 0, probes, "probe", receivers);
+    return volume;
 }
 
 } // namespace prt

@@ -14,11 +14,8 @@ namespace {
 /// Extensions that a file may list in extensionsRequired. Extensions of materials and lights change only
 /// reflection, and the base color is used instead. Missing textures of other formats are an error only if
 /// they are needed.
-constexpr std::array<std::string_view, 37> kSupportedExtensions = {
+constexpr std::array<std::string_view, 34> kSupportedExtensions = {
     kTransferExtension,
-    kClusteredExtension,
-    kLightmapExtension,
-    kVolumeExtension,
     kInstancesExtension,
     kLobeExtension,
     kOccluderExtension,

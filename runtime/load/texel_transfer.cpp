@@ -1,8 +1,10 @@
-// Reads compressed transfer of texels: PRTKIT_lightmap of docs/format.md.
+// Reads compressed transfer of texels: docs/format.md.
 #include "runtime/load/texel_transfer.h"
 
 #include "runtime/load/allowance.h"
-#include "runtime/load/clustered_json.h"
+#include "runtime/load/clustered_set.h"
+#include "runtime/load/receiver_sets.h"
+#include "runtime/load/transfer_json.h"
 #include "runtime/support/counted.h"
 
 #include <cstdint>
@@ -55,51 +57,20 @@ std::vector<std::vector<std::byte>> read_images(const GltfData& data, const Json
     return all;
 }
 
-EncodedLightmap read_encoded(const GltfData& data, const Scene& scene, const Json& extension,
-                             std::size_t count, const ImageBytes& image) {
-    EncodedLightmap encoded;
-    CompressedLightmap& lightmap = encoded.lightmap;
-    ClusteredTransfer& transfer = lightmap.compressed.transfer;
-    lightmap.layout = read_layout_of_maps(data, scene, extension);
-    transfer.bases = read_clusters_of(extension);
-    lightmap.compressed.record = read_record(extension.value("bake", Json::object()));
-    read_bases(data, extension.at("bases"), transfer.bases);
-    read_packing(data, extension.at("packing"), transfer);
-    const double bytes = static_cast<double>(transfer.receivers.stride() + sizeof(std::uint16_t));
-    check_allowed(bytes * static_cast<double>(lightmap.layout.texels()), data.file_bytes,
-                  "the texels of its lightmaps");
-    encoded.images = read_images(data, extension["maps"], static_cast<std::size_t>(transfer.receivers.words),
-                                 count, image);
-    return encoded;
-}
-
 } // namespace
 
-const Json* find_lightmap(const GltfData& data) {
-    const Json* extension = find_extension(data, kLightmapExtension, kLightmapVersion);
-    for (const char* other : {kTransferExtension, kClusteredExtension})
-        if (extension && extension_of(data.json, other))
-            throw Error(std::string("has ") + kLightmapExtension + " and " + other +
-                        "; a file can have transfer at texels or at vertices, not both");
-    if (extension && extension->contains("raw") && extension->contains("components"))
-        throw Error("has both raw vectors and clusters");
-    if (extension && extension->contains("predictors"))
-        throw Error("has predictors, but texels do not support them");
-    return extension;
-}
-
-LightmapLayout read_layout_of_maps(const GltfData& data, const Scene& scene, const Json& extension) {
+LightmapLayout read_layout_of_maps(const GltfData& data, const Scene& scene, const Json& set) {
     LightmapLayout layout;
-    const Json& maps = extension.at("maps");
+    const Json& maps = set.at("maps");
     if (!maps.is_array() || maps.empty())
         throw Error("the list of maps is missing or empty");
     for (const Json& map : maps)
         layout.maps.push_back(read_map(map));
     check_allowed(8 * static_cast<double>(layout.texels()), data.file_bytes, "its lightmaps");
     for (const Primitive& primitive : scene.primitives) {
-        const Json* of_primitive = extension_of(primitive_json(data, primitive), kLightmapExtension);
+        const Json* of_primitive = extension_of(primitive_json(data, primitive), kTransferExtension);
         if (!of_primitive)
-            throw Error(primitive_name(primitive) + " has no " + kLightmapExtension);
+            throw Error(primitive_name(primitive) + " has no " + kTransferExtension);
         try {
             layout.placements.push_back(
                 read_position(*of_primitive, scene.vertex_arrays[primitive.vertices], layout.maps.size()));
@@ -112,10 +83,18 @@ LightmapLayout read_layout_of_maps(const GltfData& data, const Scene& scene, con
 
 std::optional<EncodedLightmap> read_encoded_lightmap(const GltfData& data, const Scene& scene,
                                                      std::size_t images, const ImageBytes& image) {
-    const Json* extension = find_lightmap(data);
-    if (!extension || extension->contains("raw"))
+    const Json* set = find_set(data, ReceiverKind::texels, Coding::clustered);
+    if (!set)
         return std::nullopt;
-    return read_encoded(data, scene, *extension, images, image);
+    EncodedLightmap encoded{{read_layout_of_maps(data, scene, *set), read_clustered_set(data, scene, *set)},
+                            {}};
+    const ClusteredReceivers& receivers = encoded.lightmap.compressed.transfer.receivers;
+    const double bytes = static_cast<double>(receivers.stride() + sizeof(std::uint16_t));
+    check_allowed(bytes * static_cast<double>(encoded.lightmap.layout.texels()), data.file_bytes,
+                  "the texels of its lightmaps");
+    encoded.images =
+        read_images(data, set->at("maps"), static_cast<std::size_t>(receivers.words), images, image);
+    return encoded;
 }
 
 } // namespace prt

@@ -12,13 +12,8 @@
 
 namespace prt {
 
-inline constexpr int kLightmapVersion = 2;
-
-/// Returns the top-level extension of a file, if it has one. Throws `Error` if the file also has transfer of
-/// vertices.
-const Json* find_lightmap(const GltfData& data);
-/// Reads the maps of `extension`, and the maps of the primitives of `scene`.
-LightmapLayout read_layout_of_maps(const GltfData& data, const Scene& scene, const Json& extension);
+/// Reads the maps of `set`, and the maps of the primitives of `scene`.
+LightmapLayout read_layout_of_maps(const GltfData& data, const Scene& scene, const Json& set);
 
 /// Returns the bytes of an image file, by its index.
 using ImageBytes = std::function<std::span<const std::byte>(std::size_t)>;

@@ -118,18 +118,6 @@ void check_one_to_one(const GltfData& data) {
                     ", but the file does not have this extension");
 }
 
-Json terms_json(const TransferLayout& layout) {
-    Json terms = Json::array();
-    for (const TransferTerm& term : layout.terms) {
-        terms.push_back({{"kind", to_string(term.kind)}, {"channels", term.channels}});
-        if (!term.name.empty())
-            terms.back()["name"] = term.name;
-        if (!term.members.empty())
-            terms.back()["members"] = term.members;
-    }
-    return terms;
-}
-
 TransferLayout read_layout(const Json& extension) {
     TransferLayout layout{whole_number(extension.at("order"), "order", 1, kMaxOrder), {}};
     const Json& terms = extension.at("terms");

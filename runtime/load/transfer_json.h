@@ -29,8 +29,6 @@ const Json* find_extension(const GltfData& data, const char* name, int expected_
 /// than the file.
 void check_one_to_one(const GltfData& data);
 
-/// Returns [{"kind": "direct", "channels": 1}, ...].
-Json terms_json(const TransferLayout& layout);
 /// Reads order and terms of an extension. Throws `Error` if they are invalid.
 TransferLayout read_layout(const Json& extension);
 

@@ -1,14 +1,14 @@
-// Reads compressed transfer of vertices: PRTKIT_clustered_pca of docs/format.md.
+// Reads compressed transfer of vertices: docs/format.md.
 #include "runtime/load/vertex_transfer.h"
 
 #include "runtime/load/accessor.h"
 #include "runtime/load/allowance.h"
 #include "runtime/load/changed_file.h"
-#include "runtime/load/clustered_json.h"
+#include "runtime/load/clustered_set.h"
 #include "runtime/load/coded_vertices.h"
 #include "runtime/load/fallback.h"
 #include "runtime/load/own_attributes.h"
-#include "runtime/load/predictors_json.h"
+#include "runtime/load/receiver_sets.h"
 #include "runtime/load/transfer_json.h"
 
 #include <algorithm>
@@ -49,7 +49,7 @@ void check_extension_is_kept(const GltfData& data) {
         const Json& attributes = primitive.value("attributes", Json::object());
         for (auto it = attributes.begin(); it != attributes.end(); ++it)
             if (it.key().starts_with("_PRT_WEIGHTS_") || it.key() == "_PRT_CLUSTER")
-                throw Error("has attribute " + it.key() + ", but not the extension " + kClusteredExtension +
+                throw Error("has attribute " + it.key() + ", but not the extension " + kTransferExtension +
                             kCompressAgain);
     });
 }
@@ -133,26 +133,17 @@ std::size_t group_count(const ClusteredReceivers& receivers) {
 }
 
 std::optional<CompressedTransfer> read_clustered(const GltfData& data, const Scene& scene) {
-    const Json* extension = find_extension(data, kClusteredExtension, kClusteredVersion);
-    if (!extension) {
+    const Json* set = find_set(data, ReceiverKind::vertices, Coding::clustered);
+    if (!set) {
         check_extension_is_kept(data);
         return std::nullopt;
     }
     check_one_to_one(data);
-    CompressedTransfer compressed;
-    ClusteredBases& bases = compressed.transfer.bases;
+    CompressedTransfer compressed = read_clustered_set(data, scene, *set);
     ClusteredReceivers& receivers = compressed.transfer.receivers;
-    bases = read_clusters_of(*extension);
-    compressed.record = read_record(extension->value("bake", Json::object()));
-    read_predictors(data, scene, *extension, bases);
-    read_bases(data, extension->at("bases"), bases);
-    if (extension->contains("packing")) {
-        read_packing(data, extension->at("packing"), compressed.transfer);
-    } else {
-        receivers.components = (bases.max_components() + 3) / 4 * 4;
+    if (receivers.words == 0)
         receivers.clusters.resize(scene.receivers());
-    }
-    check_predictors(scene, bases.predictors);
+    check_predictors(scene, compressed.transfer.bases.predictors);
     TransferOfVertices read;
     for (const Primitive& primitive : scene.primitives) {
         const Json& attributes = primitive_json(data, primitive).at("attributes");

@@ -234,7 +234,7 @@ BENCHMARK(relight_lightmap)
 /// Returns 21 025 probes of sixteen bytes: 256 clusters of twelve directions, lit by a sky of order 6, with
 /// separate direct and indirect terms.
 CompressedVolume volume_of() {
-    CompressedVolume volume{{.spacing = 1, .size = {7, 7, 6}, .bricks = {}}, 3, {}, {}};
+    CompressedVolume volume{{{.spacing = 1, .size = {7, 7, 6}, .bricks = {}}, 3, {}}, {}};
     for (int i = 0; i < 7 * 7 * 6; ++i)
         volume.grid.bricks.push_back({{i % 7, i / 7 % 7, i / 49}, 0});
     volume.visibility.resize(probes_of(volume.grid).size());

@@ -111,7 +111,7 @@ std::vector<ShippedFile> lightmap_files() {
 
 CompressedVolume coded_volume(std::mt19937& random) {
     const CompressedVolume plain = random_volume(3, false, random);
-    BakedVolume baked{plain.grid, plain.order, plain.visibility, {}};
+    BakedVolume baked{plain, {}};
     baked.baked.transfer = decode(plain.compressed.transfer);
     baked.baked.transfer.layout.outputs = 1;
     return compress_volume(baked, {.clusters = 5, .coding = preset_volume()}).volume;

@@ -54,7 +54,7 @@ TransferLayout terms_of_volume(int order) {
 
 CompressedVolume random_volume(const VolumeGrid& grid, int order, bool alike, std::mt19937& random,
                                std::size_t invalid) {
-    CompressedVolume volume{grid, order, {}, {}};
+    CompressedVolume volume{{grid, order, {}}, {}};
     const std::size_t probes = probes_of(grid).size();
     TransferLayout layout = terms_of_volume(3);
     layout.outputs = static_cast<std::size_t>(coefficient_count(order));

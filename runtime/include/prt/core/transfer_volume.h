@@ -111,24 +111,25 @@ ProbeVisibility visibility_of(const std::array<float, 6>& distances, float cell)
 /// `visibility`. `cell` is the width of a cell of the probe's level, metres.
 std::array<float, 6> distances_of(const ProbeVisibility& visibility, float cell);
 
-/// Volume with raw transfer, which a bake produces.
-struct BakedVolume {
+/// Positions of the probes of a volume, what they see, and the order of their incident light.
+struct ProbeLayout {
     VolumeGrid grid;                         ///< box and bricks
     int order = 3;                           ///< order of incident light, 2..kMaxIncidentOrder
     std::vector<ProbeVisibility> visibility; ///< [probes] in the sequence of VolumeProbes
-    /// Raw transfer. Its receivers are the coefficients of incident light of all probes, [probes][order²],
-    /// with one output each: receiver p · order² + o has coefficient o of probe p.
-    BakedTransfer baked;
 
     /// Number of SH coefficients of the incident light at a probe, order².
     std::size_t coefficients() const { return static_cast<std::size_t>(coefficient_count(order)); }
 };
 
+/// Volume with raw transfer, which a bake produces.
+struct BakedVolume : ProbeLayout {
+    /// Raw transfer. Its receivers are the coefficients of incident light of all probes, [probes][order²],
+    /// with one output each: receiver p · order² + o has coefficient o of probe p.
+    BakedTransfer baked;
+};
+
 /// Volume with compressed transfer, which a game loads.
-struct CompressedVolume {
-    VolumeGrid grid;                         ///< box and bricks
-    int order = 3;                           ///< order of incident light, 2..kMaxIncidentOrder
-    std::vector<ProbeVisibility> visibility; ///< [probes] in the sequence of VolumeProbes
+struct CompressedVolume : ProbeLayout {
     CompressedTransfer compressed; ///< its receivers are the probes, with order² outputs and packed weights
 };
 

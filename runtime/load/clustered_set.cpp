@@ -1,9 +1,11 @@
 // Reads clusters, bases and packed weights: docs/format.md.
 
-#include "runtime/load/clustered_json.h"
+#include "runtime/load/clustered_set.h"
 
 #include "runtime/load/accessor.h"
 #include "runtime/load/allowance.h"
+#include "runtime/load/predictors_json.h"
+#include "runtime/load/transfer_json.h"
 #include "runtime/support/bits.h"
 
 #include <algorithm>
@@ -41,8 +43,7 @@ void read_steps(const GltfData& data, const Json& json, CodedBases& coded) {
         throw Error("the list \"axes\" in \"steps\" of the bases is empty");
 }
 
-} // namespace
-
+/// Reads the rows of `bases`, whose components and predictors are known.
 void read_bases(const GltfData& data, const Json& json, ClusteredBases& bases) {
     const std::size_t rows = bases.first_rows().back(), dimension = bases.dimension();
     if (!json.contains("values")) {
@@ -64,6 +65,7 @@ void read_bases(const GltfData& data, const Json& json, ClusteredBases& bases) {
     check_magnitudes(bases.rows, kMaxTransfer, "the decoded bases");
 }
 
+/// Reads the bit widths of weights, and computes the number of words per receiver.
 void read_packing(const GltfData& data, const Json& json, ClusteredTransfer& transfer) {
     ClusteredBases& bases = transfer.bases;
     ClusteredReceivers& receivers = transfer.receivers;
@@ -92,16 +94,39 @@ void read_packing(const GltfData& data, const Json& json, ClusteredTransfer& tra
     receivers.words = std::max(1, static_cast<int>((most + 31) / 32));
 }
 
-ClusteredBases read_clusters_of(const Json& extension, std::size_t outputs) {
+/// Reads order, terms and components.
+ClusteredBases read_components(const Json& set, std::size_t outputs) {
     ClusteredBases bases;
-    bases.layout = read_layout(extension);
+    bases.layout = read_layout(set);
     bases.layout.outputs = outputs;
     const int most = static_cast<int>(bases.dimension());
-    for (const Json& count : extension.at("components"))
+    for (const Json& count : set.at("components"))
         bases.components.push_back(whole_number(count, "the number of a cluster's components", 0, most));
     if (bases.components.empty() || bases.components.size() > 65536)
         throw Error("has " + std::to_string(bases.components.size()) + " clusters, but must have 1..65536");
     return bases;
+}
+
+} // namespace
+
+ClusteredTransfer read_clusters(const GltfData& data, const Json& set, std::size_t outputs) {
+    ClusteredTransfer transfer;
+    transfer.bases = read_components(set, outputs);
+    if (set.contains("packing"))
+        read_packing(data, set["packing"], transfer);
+    else
+        transfer.receivers.components = (transfer.bases.max_components() + 3) / 4 * 4;
+    return transfer;
+}
+
+CompressedTransfer read_clustered_set(const GltfData& data, const Scene& scene, const Json& set,
+                                      std::size_t outputs) {
+    CompressedTransfer compressed{read_clusters(data, set, outputs),
+                                  read_record(set.value("bake", Json::object()))};
+    ClusteredBases& bases = compressed.transfer.bases;
+    read_predictors(data, scene, set, bases);
+    read_bases(data, set.at("bases"), bases);
+    return compressed;
 }
 
 } // namespace prt
