@@ -31,25 +31,26 @@ struct Damage {
 };
 
 Json& extension(GlbFile& file) {
-    return file.json["extensions"]["PRTKIT_lightmap"];
+    return file.json["extensions"]["PRTKIT_transfer"];
+}
+Json& set(GlbFile& file) {
+    return set_of(file.json, "texels");
 }
 Json& map(GlbFile& file) {
-    return extension(file)["maps"][0];
+    return set(file)["maps"][0];
 }
 Json& position(GlbFile& file) {
-    return file.json["meshes"][0]["primitives"][0]["extensions"]["PRTKIT_lightmap"];
+    return file.json["meshes"][0]["primitives"][0]["extensions"]["PRTKIT_transfer"];
 }
 
-/// Replaces number `i` in buffer view raw/`name`.
+/// Replaces number `i` in buffer view `name` of the set.
 template <class Number>
 void put(GlbFile& file, const char* name, std::size_t i, Number value) {
-    const Json& view =
-        file.json["bufferViews"][extension(file)["raw"][name]["bufferView"].get<std::size_t>()];
+    const Json& view = file.json["bufferViews"][set(file)[name]["bufferView"].get<std::size_t>()];
     std::memcpy(&file.binary[view["byteOffset"].get<std::size_t>() + i * sizeof value], &value, sizeof value);
 }
 void cut(GlbFile& file, const char* name, std::size_t bytes) {
-    file.json["bufferViews"][extension(file)["raw"][name]["bufferView"].get<std::size_t>()]["byteLength"] =
-        bytes;
+    file.json["bufferViews"][set(file)[name]["bufferView"].get<std::size_t>()]["byteLength"] = bytes;
 }
 
 std::span<const std::byte> bytes_of(std::string_view text) {
@@ -93,17 +94,17 @@ std::vector<Damage> damages_to_maps() {
     constexpr Schema kRefuses = Schema::refuses;
     return {
         {"version", [](GlbFile& f) { extension(f)["version"] = 9; }, "has version 9", kRefuses},
-        {"order", [](GlbFile& f) { extension(f)["order"] = 11; }, "order is 11", kRefuses},
-        {"no_terms", [](GlbFile& f) { extension(f)["terms"] = Json::array(); }, "terms", kRefuses},
-        {"no_maps", [](GlbFile& f) { extension(f).erase("maps"); }, "maps", kRefuses},
-        {"empty_maps", [](GlbFile& f) { extension(f)["maps"] = Json::array(); },
+        {"order", [](GlbFile& f) { set(f)["order"] = 11; }, "order is 11", kRefuses},
+        {"no_terms", [](GlbFile& f) { set(f)["terms"] = Json::array(); }, "terms", kRefuses},
+        {"no_maps", [](GlbFile& f) { set(f).erase("maps"); }, "maps", kRefuses},
+        {"empty_maps", [](GlbFile& f) { set(f)["maps"] = Json::array(); },
          "the list of maps is missing or empty", kRefuses},
         {"maps_by_name",
          [](GlbFile& f) {
-             extension(f)["maps"] = {{"a", map(f)}, {"b", map(f)}};
+             set(f)["maps"] = {{"a", map(f)}, {"b", map(f)}};
          },
          "the list of maps is missing or empty", kRefuses},
-        {"map_of_nothing", [](GlbFile& f) { extension(f)["maps"][0] = nullptr; }, "", kRefuses},
+        {"map_of_nothing", [](GlbFile& f) { set(f)["maps"][0] = nullptr; }, "", kRefuses},
         {"width_0", [](GlbFile& f) { map(f)["width"] = 0; }, "width of a map is 0", kRefuses},
         {"height_negative", [](GlbFile& f) { map(f)["height"] = -8; }, "height of a map is -8", kRefuses},
         {"width_2_31", [](GlbFile& f) { map(f)["width"] = 1LL << 31; }, "width of a map is 2147483648",
@@ -115,8 +116,8 @@ std::vector<Damage> damages_to_maps() {
         {"maps_beyond_memory",
          [](GlbFile& f) {
              for (int i = 0; i < 20; ++i) {
-                 extension(f)["maps"].push_back(map(f));
-                 extension(f)["maps"].back()["width"] = extension(f)["maps"].back()["height"] = 16384;
+                 set(f)["maps"].push_back(map(f));
+                 set(f)["maps"].back()["width"] = set(f)["maps"].back()["height"] = 16384;
              }
          },
          "lightmaps would need"},
@@ -127,12 +128,21 @@ std::vector<Damage> damages_to_maps() {
         {"texcoord_negative", [](GlbFile& f) { position(f)["texCoord"] = -1; }, "texCoord is -1", kRefuses},
         {"texcoord_that_is_not_there", [](GlbFile& f) { position(f)["texCoord"] = 3; }, "has no TEXCOORD_3"},
         {"no_position", [](GlbFile& f) { f.json["meshes"][0]["primitives"][0].erase("extensions"); },
-         "mesh 0 primitive 0 has no PRTKIT_lightmap"},
-        {"vertices_too",
+         "mesh 0 primitive 0 has no PRTKIT_transfer"},
+        {"former",
          [](GlbFile& f) {
-             f.json["extensions"]["PRTKIT_clustered_pca"] = {{"version", 8}};
+             f.json["extensions"]["PRTKIT_lightmap"] = {{"version", 2}};
          },
-         "", kRefuses},
+         "has PRTKIT_lightmap, a format of a former version", kRefuses},
+        {"no_sets", [](GlbFile& f) { extension(f)["sets"] = Json::array(); }, "or the list is empty",
+         kRefuses},
+        {"set_of_nothing", [](GlbFile& f) { extension(f)["sets"].push_back(nullptr); }, "is not an object",
+         kRefuses},
+        {"sets_twice", [](GlbFile& f) { extension(f)["sets"].push_back(set(f)); }, "has two sets of texels"},
+        {"receivers_unknown", [](GlbFile& f) { set(f)["receivers"] = "edges"; },
+         "neither vertices, texels nor probes", kRefuses},
+        {"coding_unknown", [](GlbFile& f) { set(f)["coding"] = "packed"; }, "neither raw nor clustered",
+         kRefuses},
     };
 }
 
@@ -142,15 +152,15 @@ std::vector<Damage> damages_to_raw() {
         {"texels_not_ascending", [](GlbFile& f) { put(f, "texels", 1, 0u); }, "not in ascending order"},
         {"texel_beyond", [](GlbFile& f) { put(f, "texels", 44, 68u); }, "outside the maps"},
         {"texels_of_bytes", [](GlbFile& f) { cut(f, "texels", 7); }, "not 32-bit integers"},
-        {"texels_without_view", [](GlbFile& f) { extension(f)["raw"]["texels"].erase("bufferView"); },
-         "bufferView", kRefuses},
+        {"texels_without_view", [](GlbFile& f) { set(f)["texels"].erase("bufferView"); }, "bufferView",
+         kRefuses},
         {"no_receivers", [](GlbFile& f) { cut(f, "texels", 0); }, ""},
         {"fewer_texels", [](GlbFile& f) { cut(f, "texels", 16); }, "the areas: expected 16 bytes"},
-        {"no_areas", [](GlbFile& f) { extension(f)["raw"].erase("areas"); }, "areas", kRefuses},
+        {"no_areas", [](GlbFile& f) { set(f).erase("areas"); }, "areas", kRefuses},
         {"area_negative", [](GlbFile& f) { put(f, "areas", 3, -1e-6f); }, "an area is negative"},
         {"area_nan", [](GlbFile& f) { put(f, "areas", 3, std::numeric_limits<float>::quiet_NaN()); },
          "the areas contain values that are not finite"},
-        {"areas_of_halves", [](GlbFile& f) { extension(f)["raw"]["areas"]["componentType"] = 5131; },
+        {"areas_of_halves", [](GlbFile& f) { set(f)["areas"]["componentType"] = 5131; },
          "component type 5131", kRefuses},
         {"seam_beyond", [](GlbFile& f) { put(f, "seams", 1, 45u); },
          "a seam refers to receiver 45, but there are only 45"},
@@ -158,10 +168,9 @@ std::vector<Damage> damages_to_raw() {
         {"vector_nan", [](GlbFile& f) { put(f, "vectors", 0, std::numeric_limits<float>::quiet_NaN()); },
          "not finite"},
         {"vectors_short", [](GlbFile& f) { cut(f, "vectors", 64); }, "vectors of texels: expected"},
-        {"vectors_of_bytes", [](GlbFile& f) { extension(f)["raw"]["vectors"]["componentType"] = 5121; },
+        {"vectors_of_bytes", [](GlbFile& f) { set(f)["vectors"]["componentType"] = 5121; },
          "component type 5121", kRefuses},
-        {"no_vectors", [](GlbFile& f) { extension(f)["raw"].erase("vectors"); }, "vectors", kRefuses},
-        {"raw_number", [](GlbFile& f) { extension(f)["raw"] = 7; }, "", kRefuses},
+        {"no_vectors", [](GlbFile& f) { set(f).erase("vectors"); }, "vectors", kRefuses},
     };
 }
 
@@ -205,7 +214,7 @@ std::vector<Damage> damages_to_images() {
          "a map has 1 image, but a texel has 2 words"},
         {"more_words",
          [](GlbFile& f) {
-             for (Json& m : extension(f)["maps"])
+             for (Json& m : set(f)["maps"])
                  m["images"].push_back(m["images"][0]);
          },
          "a map has 3 images, but a texel has 2 words"},
@@ -220,23 +229,16 @@ std::vector<Damage> damages_to_clusters() {
              put_pixels(f, 8, 6, {15, 0, 0, 0});
          },
          "texel 0 has cluster 15, but there are only 11"},
-        {"no_components", [](GlbFile& f) { extension(f).erase("components"); }, "components", kRefuses},
-        {"no_bases", [](GlbFile& f) { extension(f).erase("bases"); }, "bases", kRefuses},
-        {"no_packing", [](GlbFile& f) { extension(f).erase("packing"); }, "packing", kRefuses},
-        {"cluster_bits", [](GlbFile& f) { extension(f)["packing"]["clusterBits"] = 17; }, "clusterBits is 17",
+        {"no_components", [](GlbFile& f) { set(f).erase("components"); }, "components", kRefuses},
+        {"no_bases", [](GlbFile& f) { set(f).erase("bases"); }, "bases", kRefuses},
+        {"no_packing", [](GlbFile& f) { set(f).erase("packing"); }, "packing", kRefuses},
+        {"cluster_bits", [](GlbFile& f) { set(f)["packing"]["clusterBits"] = 17; }, "clusterBits is 17",
          kRefuses},
         {"predictors",
          [](GlbFile& f) {
-             extension(f)["predictors"] = {{{"kind", "normal"}, {"scale", {1, 1, 1}}}};
+             set(f)["predictors"] = {{{"kind", "normal"}, {"scale", {1, 1, 1}}}};
          },
-         "texels do not support them", kRefuses},
-        {"raw_too",
-         [](GlbFile& f) {
-             extension(f)["raw"] = {{"texels", {{"bufferView", 0}}},
-                                    {"areas", {{"bufferView", 0}}},
-                                    {"vectors", {{"bufferView", 0}}}};
-         },
-         "both raw vectors and clusters", kRefuses},
+         "which only vertices support", kRefuses},
     };
 }
 

@@ -236,7 +236,7 @@ TEST_F(LampCommands, CanBeTheOnlyLight) {
 /// An older version wrote these lamps, without light of their suns.
 TEST_F(LampCommands, SunsOfOlderVersionsAreRejected) {
     GlbFile file = read_glb(folder / "b.glb");
-    file.json["extensions"]["PRTKIT_transfer"]["terms"].back()["towards"] = {0, 1, 0};
+    set_of(file.json, "vertices")["terms"].back()["towards"] = {0, 1, 0};
     file.write(folder / "old.glb");
     const Outcome outcome = prt({"info", at("old.glb")});
     EXPECT_EQ(outcome.status, 1);

@@ -59,8 +59,7 @@ Json& member_of(Json& value, Random& random) {
 }
 
 Json& extension(GlbFile& file) {
-    Json& all = file.json["extensions"];
-    return all[all.contains("PRTKIT_lightmap") ? "PRTKIT_lightmap" : "PRTKIT_clustered_pca"];
+    return file.json["extensions"]["PRTKIT_transfer"]["sets"][0];
 }
 
 void change_number(GlbFile& file, Random& random) {
@@ -146,7 +145,7 @@ void change_maps(GlbFile& file, Random& random) {
         break;
     default: {
         Json& primitives = file.json["meshes"][0]["primitives"];
-        primitives[below(primitives.size(), random)]["extensions"]["PRTKIT_lightmap"]
+        primitives[below(primitives.size(), random)]["extensions"]["PRTKIT_transfer"]
                   [random() % 2 ? "map" : "texCoord"] = strange_value(random);
     }
     }

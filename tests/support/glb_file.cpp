@@ -6,6 +6,9 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <stdexcept>
+#include <string>
+#include <utility>
 
 namespace prt::test {
 
@@ -69,6 +72,17 @@ GlbFile read_glb(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
     const std::string bytes((std::istreambuf_iterator<char>(file)), {});
     return glb_of(std::as_bytes(std::span(bytes)));
+}
+
+const nlohmann::ordered_json& set_of(const nlohmann::ordered_json& json, std::string_view receivers) {
+    for (const nlohmann::ordered_json& set : json.at("extensions").at("PRTKIT_transfer").at("sets"))
+        if (set.at("receivers") == receivers)
+            return set;
+    throw std::out_of_range("no set of " + std::string(receivers));
+}
+
+nlohmann::ordered_json& set_of(nlohmann::ordered_json& json, std::string_view receivers) {
+    return const_cast<nlohmann::ordered_json&>(set_of(std::as_const(json), receivers));
 }
 
 GlbFile triangle_file() {

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace prt::test {
@@ -36,6 +37,10 @@ inline constexpr int kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsigne
 /// Parses a .glb into its parts.
 GlbFile glb_of(std::span<const std::byte> bytes);
 GlbFile read_glb(const std::filesystem::path& path);
+
+/// Returns the set of `receivers` ("vertices", "texels" or "probes") in PRTKIT_transfer. Throws without one.
+nlohmann::ordered_json& set_of(nlohmann::ordered_json& json, std::string_view receivers);
+const nlohmann::ordered_json& set_of(const nlohmann::ordered_json& json, std::string_view receivers);
 
 /// A file with one triangle (0,0,0) (1,0,0) (0,1,0), indexed, with normals, at node 0.
 GlbFile triangle_file();

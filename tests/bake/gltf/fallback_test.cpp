@@ -20,7 +20,6 @@ namespace {
 using test::GlbFile;
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kOwn = "PRTKIT_clustered_pca";
 constexpr float kExposure = 0.5f;
 
 GltfDocument document_of(const GlbFile& file) {
@@ -176,7 +175,7 @@ TEST(Fallback, DamageIsRejectedOrIgnored) {
     const GlbFile right = with_fallback(shipped(scene_of_all_kinds()));
     for (const Json& exposure : {Json(0), Json(-1), Json("bright"), Json(nullptr)}) {
         GlbFile file = right;
-        file.json["extensions"][kOwn]["fallback"]["exposure"] = exposure;
+        test::set_of(file.json, "vertices")["fallback"]["exposure"] = exposure;
         EXPECT_THROW(document_of(file), Error) << exposure;
     }
     GlbFile file = right;
@@ -189,7 +188,7 @@ TEST(Fallback, DamageIsRejectedOrIgnored) {
     file.json["meshes"][0]["primitives"][0]["attributes"]["_PRT_COLOR_0"] = 999;
     EXPECT_THROW(document_of(file), Error);
     file = right;
-    file.json["extensions"][kOwn].erase("fallback"); // materials alone are not a fallback
+    test::set_of(file.json, "vertices").erase("fallback"); // materials alone are not a fallback
     EXPECT_EQ(extract_scene(document_of(file)).primitives.size(), 5u);
     GltfDocument bare = document_of(scene_of_all_kinds());
     const Scene scene = extract_scene(bare);

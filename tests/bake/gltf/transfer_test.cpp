@@ -265,8 +265,10 @@ TEST(TransferInGltf, CompressionRemovesRawVectors) {
     save_glb(baked, files.written);
     EXPECT_LT(std::filesystem::file_size(files.written) + scene.receivers() * 1000, baked_size);
     const auto json = test::read_glb(files.written).json;
-    EXPECT_FALSE(json["extensions"].contains("PRTKIT_transfer"));
-    EXPECT_EQ(json["extensionsUsed"], (nlohmann::ordered_json{"VENDOR_unknown", "PRTKIT_clustered_pca"}));
+    EXPECT_EQ(json["extensions"]["PRTKIT_transfer"]["sets"].size(), 1u);
+    EXPECT_EQ(test::set_of(json, "vertices")["coding"], "clustered");
+    EXPECT_FALSE(json["meshes"][0]["primitives"][0].contains("extensions"));
+    EXPECT_EQ(json["extensionsUsed"], (nlohmann::ordered_json{"VENDOR_unknown", "PRTKIT_transfer"}));
     const Scene again = extract_scene(load_gltf(files.written));
     for (std::size_t a = 0; a < again.vertex_arrays.size(); ++a)
         EXPECT_EQ(again.vertex_arrays[a].positions, baked_scene.vertex_arrays[a].positions);
@@ -325,7 +327,7 @@ private:
 };
 
 nlohmann::ordered_json& extension(nlohmann::ordered_json& json) {
-    return json["extensions"]["PRTKIT_clustered_pca"];
+    return test::set_of(json, "vertices");
 }
 
 TEST(TransferInGltf, DamagedPackedTransferIsRejected) {
@@ -412,14 +414,14 @@ TEST(TransferInGltf, ChangesOfOtherProgramsAreRejectedWithTheRemedy) {
         });
         expect(format, "has no attribute _PRT_WEIGHTS_0",
                [&](GlbFile& file) { attributes(file).erase("_PRT_WEIGHTS_0"); });
-        expect(format, "_PRT_WEIGHTS_0, but not the extension PRTKIT_clustered_pca", [&](GlbFile& file) {
+        expect(format, "_PRT_WEIGHTS_0, but not the extension PRTKIT_transfer", [&](GlbFile& file) {
             file.json.erase("extensions");
             attributes(file).erase("_PRT_CLUSTER");
         });
     }
     expect(WeightFormat::float32, "has no attribute _PRT_CLUSTER",
            [&](GlbFile& file) { attributes(file).erase("_PRT_CLUSTER"); });
-    expect(WeightFormat::float32, "_PRT_CLUSTER, but not the extension PRTKIT_clustered_pca",
+    expect(WeightFormat::float32, "_PRT_CLUSTER, but not the extension PRTKIT_transfer",
            [&](GlbFile& file) { file.json.erase("extensions"); });
     // Integers as floats, and as shares of their type.
     expect(WeightFormat::packed, "_PRT_WEIGHTS_0 has component type 5126, not 5121", [&](GlbFile& file) {

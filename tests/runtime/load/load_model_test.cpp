@@ -238,8 +238,12 @@ TEST(LoadModel, RefusesFilesThatItCannotRead) {
               "model.glb: is compressed with Draco, which loading does not support; write it with prt "
               "compress");
     EXPECT_NE(changed([](GlbFile& file) {
-                  file.json["extensions"]["PRTKIT_clustered_pca"]["version"] = 1;
-              }).find("PRTKIT_clustered_pca has version 1"),
+                  file.json["extensions"]["PRTKIT_transfer"]["version"] = 1;
+              }).find("PRTKIT_transfer has version 1"),
+              std::string::npos);
+    EXPECT_NE(changed([](GlbFile& file) {
+                  file.json["extensions"]["PRTKIT_clustered_pca"] = {{"version", 8}};
+              }).find("has PRTKIT_clustered_pca, a format of a former version"),
               std::string::npos);
     EXPECT_NE(changed([](GlbFile& file) {
                   file.json["accessors"][0]["bufferView"] = 1000;
