@@ -91,7 +91,7 @@ public:
 
     void write(const PlacedInstance& placed, std::size_t array, std::span<float> to) {
         const MeshModes& modes = modes_of(array, glm::transpose(placed.rotation) * glm::dvec3(0, 1, 0));
-        expand_instance(modes.shared, placed, modes.positions, to);
+        expand_instance(modes.shared, transfer_.layout, placed, modes.positions, to);
     }
     /// Prepares the modes that `write` needs, so that threads can share them.
     void prepare(const PlacedInstance& placed, std::size_t array) {
@@ -127,6 +127,22 @@ private:
     std::vector<MeshModes> modes_;
 };
 
+/// Writes the light of lamps at instances.
+Json write_lamps(GltfContents& contents, const std::vector<std::vector<InstanceLampLight>>& lamps) {
+    std::vector<std::byte> bytes;
+    const auto add = [&](const auto& value) {
+        const auto view = std::as_bytes(std::span(&value, 1));
+        bytes.insert(bytes.end(), view.begin(), view.end());
+    };
+    for (const std::vector<InstanceLampLight>& of_instance : lamps)
+        for (const InstanceLampLight& light : of_instance) {
+            const CodedLampLight of_file = coded(light);
+            add(of_file.scale);
+            add(of_file.bytes);
+        }
+    return {{"count", lamps.front().size()}, {"bufferView", contents.add_buffer_view(bytes)}};
+}
+
 } // namespace
 
 void write_instances(GltfDocument& document, const StoredInstances& instances) {
@@ -141,6 +157,10 @@ void write_instances(GltfDocument& document, const StoredInstances& instances) {
             {"count", instances.factors.size()},
             {"boxes", std::move(boxes)},
             {"factors", {{"bufferView", view}, {"scales", factors.scales}}}};
+        if (!instances.lamps.empty()) {
+            Json lamps = write_lamps(contents, instances.lamps);
+            contents.json["extensions"][kInstancesExtension]["lamps"] = std::move(lamps);
+        }
     });
 }
 

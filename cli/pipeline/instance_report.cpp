@@ -19,6 +19,31 @@ Json percentiles(std::vector<double> errors) {
     return {{"median", at(0.5)}, {"percentile_90", at(0.9)}, {"percentile_99", at(0.99)}, {"max", at(1)}};
 }
 
+namespace {
+
+Json instance_figures(const InstanceOutcome& outcome) {
+    const InstancedBake& baked = outcome.baked;
+    const InstanceStatistics& s = baked.bake.statistics;
+    Json figures = {{"meshes", baked.meshes.meshes.size()},
+                    {"shared", baked.bake.instances.factors.size()},
+                    {"baked_separately", baked.baked_alone},
+                    {"mirrored", baked.meshes.mirrored},
+                    {"nonuniform_scale", baked.meshes.uneven},
+                    {"deformed", baked.meshes.bent},
+                    {"unoccluded", s.alone},
+                    {"error_allowed_relative_l2", outcome.error},
+                    {"lights", s.lights},
+                    {"error_relative_l2", percentiles(baked.bake.errors)},
+                    {"error_before_relative_l2", percentiles(baked.first_errors)},
+                    {"errors_before_relative_l2", baked.first_errors},
+                    {"errors_relative_l2", baked.bake.errors}};
+    if (!baked.bake.lamp_errors.empty())
+        figures["lamp_error_relative_l2"] = percentiles(baked.bake.lamp_errors);
+    return figures;
+}
+
+} // namespace
+
 Report instance_report(const InstanceOutcome& outcome) {
     const InstancedBake& baked = outcome.baked;
     const InstanceStatistics& s = baked.bake.statistics;
@@ -39,20 +64,7 @@ Report instance_report(const InstanceOutcome& outcome) {
                          {"seconds", baked.seconds},
                          {"bytes_file", outcome.bytes},
                          {"notices", s.notices},
-                         {"instances",
-                          {{"meshes", baked.meshes.meshes.size()},
-                           {"shared", baked.bake.instances.factors.size()},
-                           {"baked_separately", baked.baked_alone},
-                           {"mirrored", baked.meshes.mirrored},
-                           {"nonuniform_scale", baked.meshes.uneven},
-                           {"deformed", baked.meshes.bent},
-                           {"unoccluded", s.alone},
-                           {"error_allowed_relative_l2", outcome.error},
-                           {"lights", s.lights},
-                           {"error_relative_l2", percentiles(baked.bake.errors)},
-                           {"error_before_relative_l2", percentiles(baked.first_errors)},
-                           {"errors_before_relative_l2", baked.first_errors},
-                           {"errors_relative_l2", baked.bake.errors}}}});
+                         {"instances", instance_figures(outcome)}});
     report.sentences = {
         fmt::format(
             "{{output}}: {{receivers:#vertex|vertices}}, {{triangles:#triangle}}, transfer stored for "
@@ -65,6 +77,11 @@ Report instance_report(const InstanceOutcome& outcome) {
         "error of shared transfer: median {instances/error_relative_l2/median:.2f%}, 99th percentile "
         "{instances/error_relative_l2/percentile_99:.2f%}, maximum {instances/error_relative_l2/max:.2f%} "
         "(at the samples, under soft skies and {instances/lights:#given light})"};
+    if (!baked.bake.lamp_errors.empty())
+        report.sentences.emplace_back(
+            "of the light of lamps: median {instances/lamp_error_relative_l2/median:.2f%}, 99th percentile "
+            "{instances/lamp_error_relative_l2/percentile_99:.2f%}, maximum "
+            "{instances/lamp_error_relative_l2/max:.2f%} (at the vertices, all lamps together)");
     for (std::size_t i = 0; i < s.notices.size(); ++i)
         report.sentences.push_back(fmt::format("{{notices/{}}}", i));
     report.sentences.emplace_back(

@@ -76,11 +76,6 @@ SharedMeshes meshes_to_share(const InstanceArguments& arguments, const GltfDocum
     const bool other_light =
         asked.options.target_error || asked.options.fit == FitMode::surface ||
         asked.options.tracer.method == BakeMethod::raster || !asked.options.subsurface.media.empty() ||
-        (asked.options.lamps.mode != LampMode::none &&
-         (!scene.lights.empty() || std::ranges::any_of(scene.materials,
-                                                       [](const Material& material) {
-                                                           return material.emission.radiance != glm::vec3(0);
-                                                       }))) ||
         std::ranges::any_of(scene.materials,
                             [](const Material& material) { return medium_of(material).has_value(); });
     if (!must && (other_light || !pays(arguments, meshes, scene)))
@@ -111,8 +106,9 @@ InstancedBake bake_shared(const InstanceArguments& arguments, const FlatScene& f
         SharedDocument shared = with_shared_meshes(flat.document, meshes.meshes);
         Scene stored = extract_scene(shared.document);
         leave_out_shadows(stored, flat.no_shadow);
-        result.bake = bake_instances({flat.scene, stored, meshes.meshes, shared.mesh_nodes, shared.node_of},
-                                     options, with_lights, progress.range(begin, 1));
+        result.bake = bake_instances(
+            {flat.scene, stored, meshes.meshes, shared.mesh_nodes, shared.node_of, result.bake.flat_lamps},
+            options, with_lights, progress.range(begin, 1));
         begin = 0.5 + begin / 2;
         result.seconds += result.bake.statistics.seconds;
         result.rays += result.bake.statistics.rays;

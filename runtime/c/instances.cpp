@@ -92,15 +92,16 @@ prt_status prt_instances_of_mesh(const prt_model* model, size_t mesh, size_t* fi
 }
 
 prt_status prt_instances_update_constants(const prt_model* model, int order, const float* sky,
-                                          const float* suns, int threads, float* constants,
-                                          prt_message* message) {
+                                          const float* suns, const float* lamps, int threads,
+                                          float* constants, prt_message* message) {
     return guarded(message, [&] {
         check_pointers(model, sky, constants);
         const prt::InstanceRelighter& relighter = instances_of(*model).relighter;
-        const prt::LightingView light = lighting_of({order, sky, suns, nullptr}, 0);
+        const prt::LightingView light = lighting_of({order, sky, suns, lamps}, model->relighter.layout().lamps());
         prt::Lighting lighting{{order, {light.sky.begin(), light.sky.end()}}};
         if (suns)
             lighting.suns = prt::Light{order, {light.suns.begin(), light.suns.end()}};
+        lighting.lamps.assign(light.lamps.begin(), light.lamps.end());
         relighter.update(lighting, {reinterpret_cast<glm::vec4*>(constants), relighter.size()}, threads);
         if (!within(kMaxConstant, constants, 4 * relighter.size()))
             throw Error("the light is too bright for the model: constants exceed 1e30");

@@ -3,6 +3,7 @@
 
 #include "prt/core/error.h"
 #include "runtime/load/accessor.h"
+#include "runtime/load/allowance.h"
 #include "runtime/load/even_placement.h"
 #include "runtime/load/level_nodes.h"
 #include "runtime/load/transfer_json.h"
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <optional>
 #include <span>
 #include <string>
@@ -52,6 +54,36 @@ CodedFactors read_factors(const GltfData& data, const Json& json, std::size_t co
     return coded;
 }
 
+/// Reads the light of `lamps` lamps at `count` instances.
+std::vector<std::vector<InstanceLampLight>> read_lamps(const GltfData& data, const Json& json,
+                                                       std::size_t count) {
+    const auto lamps = static_cast<std::size_t>(whole_number(
+        json.at("count"), "the number of lamps of its instances", 1, static_cast<int>(kMaxLamps)));
+    const std::span<const std::byte> bytes = buffer_view_bytes(data.model, json.at("bufferView").get<int>());
+    if (bytes.size() != count * lamps * kLampLightBytes)
+        throw Error("the light of lamps at its instances has " + std::to_string(bytes.size()) +
+                    " bytes, but must have " + std::to_string(count * lamps * kLampLightBytes));
+    std::size_t drawn = count; // nodes can draw the same instance
+    if (data.json.contains("nodes"))
+        for (const Json& node : data.json["nodes"])
+            drawn += extension_of(node, kInstancesExtension) ? 1 : 0;
+    check_allowed(static_cast<double>(drawn * lamps * sizeof(InstanceLampLight)), data.file_bytes,
+                  "the light of lamps at its instances");
+    std::vector<std::vector<InstanceLampLight>> result(count);
+    std::size_t at = 0;
+    for (std::vector<InstanceLampLight>& of_instance : result)
+        for (std::size_t l = 0; l < lamps; ++l, at += kLampLightBytes) {
+            CodedLampLight light;
+            std::memcpy(&light.scale, &bytes[at], sizeof light.scale);
+            std::memcpy(light.bytes.data(), &bytes[at + sizeof light.scale], light.bytes.size());
+            if (!(light.scale >= 0 && light.scale <= kMaxTransfer))
+                throw Error(
+                    "a scale of the light of lamps at its instances is negative, not finite or too large");
+            of_instance.push_back(decoded(light));
+        }
+    return result;
+}
+
 } // namespace
 
 StoredInstances read_stored_instances(const GltfData& data) {
@@ -62,6 +94,8 @@ StoredInstances read_stored_instances(const GltfData& data) {
     const auto count = static_cast<std::size_t>(
         whole_number(extension.at("count"), "the number of instances", 1, kMaxSharedInstances));
     StoredInstances stored{decoded(read_factors(data, extension.at("factors"), count)), {}};
+    if (extension.contains("lamps"))
+        stored.lamps = read_lamps(data, extension["lamps"], count);
     if (extension.at("boxes").empty())
         throw Error("its instances have no boxes");
     for (const Json& box : extension.at("boxes"))
@@ -83,7 +117,11 @@ FileInstance read_instance(const StoredInstances& stored, int node, const Json& 
             "node " + std::to_string(node) +
             " mirrors or non-uniformly scales an instance that shares its transfer; undo this, or bake "
             "with --instances own");
-    return {node, number, {stored.factors[number], placement->rotation, stored.boxes[box]}, {}, {}, world};
+    FileInstance instance{node, number, {stored.factors[number], placement->rotation, stored.boxes[box]},
+                          {},   {},     world};
+    if (!stored.lamps.empty())
+        instance.placed.lamps = stored.lamps[number];
+    return instance;
 }
 
 std::vector<MeshInstance> mesh_instances(const GltfData& data) {

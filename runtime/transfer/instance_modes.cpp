@@ -7,6 +7,7 @@
 #include "runtime/sh/gauss_legendre.h"
 #include "runtime/support/parallel.h"
 #include "runtime/support/vector_lanes.h"
+#include "runtime/transfer/instance_lamps.h"
 
 #include <glm/geometric.hpp>
 
@@ -67,12 +68,19 @@ void over_upper_half(int order, const glm::dvec3& up, const Take& take) {
 /// Scale from a basis function to the function of a mode, whose mean square is 1.
 const double kModeScale = std::sqrt(4 * std::numbers::pi);
 
-/// Returns the response of a single-channel vector to the functions of the added modes.
-std::array<float, kAddedModes> response(std::span<const float> vector) {
-    std::array<float, kAddedModes> answers{};
-    for (std::size_t k = 0; k < std::min(kAddedModes, vector.size()); ++k)
+using Responses = std::array<float, kInstanceLampFunctions>;
+
+/// Returns the response of a single-channel vector to the radiance √(4π)·Y_i.
+Responses response(std::span<const float> vector) {
+    Responses answers{};
+    for (std::size_t k = 0; k < std::min(answers.size(), vector.size()); ++k)
         answers[k] = static_cast<float>(kModeScale) * vector[k];
     return answers;
+}
+
+TransferLayout without_lamps(TransferLayout layout) {
+    layout.terms.resize(layout.distant_terms().size());
+    return layout;
 }
 
 } // namespace
@@ -106,9 +114,6 @@ std::span<const float> InstanceModes::matrix(std::size_t mode) const {
 }
 
 std::array<Lighting, kInstanceModes> InstanceModes::lightings(const Lighting& lighting) const {
-    if (!lighting.lamps.empty())
-        throw Error(
-            "instances with shared transfer do not support lamps; use --lamps none or --instances own");
     if (lighting.sky.order < order_ || (lighting.suns && lighting.suns->order < order_))
         throw Error("the order of the lighting is lower than the order of the transfer");
     const std::size_t count = level_.size();
@@ -139,9 +144,9 @@ std::array<Lighting, kInstanceModes> InstanceModes::lightings(const Lighting& li
 }
 
 SharedTransfer::SharedTransfer(const Transfer& transfer, const glm::dvec3& up, int threads)
-    : layout_(transfer.layout), modes_(transfer.layout.order, up) {
-    if (layout_.lamps() > 0 || layout_.outputs != 1)
-        throw Error("instances with shared transfer do not support lamps");
+    : layout_(without_lamps(transfer.layout)), modes_(transfer.layout.order, up) {
+    if (layout_.terms.empty() || layout_.outputs != 1)
+        throw Error("instances that share transfer need transfer of distant light");
     const std::size_t dimension = layout_.dimension(), count = modes_.level().size(),
                       receivers = transfer.receivers();
     passing_.resize(receivers * kPassingModes * dimension);
@@ -159,8 +164,8 @@ SharedTransfer::SharedTransfer(const Transfer& transfer, const glm::dvec3& up, i
             std::size_t first = 0;
             for (const TransferTerm& term : layout_.terms)
                 for (int c = 0; c < term.channels; ++c, first += count) {
-                    const auto answers = response(from.subspan(first, count));
-                    for (std::size_t k = 0; k < kAddedModes; ++k)
+                    const Responses answers = response(from.subspan(first, count));
+                    for (std::size_t k = 0; k < answers.size(); ++k)
                         for (int color = term.channels == 1 ? 0 : c; color <= (term.channels == 1 ? 2 : c);
                              ++color)
                             responses_[r][k][color] += answers[k];
@@ -190,16 +195,38 @@ void SharedTransfer::sum(std::size_t receiver, std::span<const glm::vec3> factor
     }
 }
 
-void expand_instance(const SharedTransfer& shared, const PlacedInstance& instance,
-                     std::span<const glm::vec3> positions, std::span<float> vectors) {
-    const std::size_t dimension = shared.layout().dimension(), count = shared.level().size();
+glm::vec3 SharedTransfer::lamp_radiance(std::size_t receiver, const InstanceLampLight& light,
+                                        const glm::vec3& position) const {
+    glm::vec3 radiance(0);
+    for (std::size_t i = 0; i < kInstanceLampFunctions; ++i)
+        for (int c = 0; c < 3; ++c)
+            radiance[c] += responses_[receiver][i][c] *
+                           glm::dot(light.functions[i][static_cast<std::size_t>(c)], glm::vec4(position, 1));
+    return radiance;
+}
+
+void expand_instance(const SharedTransfer& shared, const TransferLayout& layout,
+                     const PlacedInstance& instance, std::span<const glm::vec3> positions,
+                     std::span<float> vectors) {
+    check_instance_lamps(layout, instance);
+    const std::size_t dimension = layout.dimension(), distant = shared.layout().dimension(),
+                      count = shared.level().size();
     const InstanceFactors factors = in_axes_of_mesh(instance.factors, instance.rotation);
     const ShRotation rotation(shared.layout().order, instance.rotation);
     for (std::size_t r = 0; r < shared.receivers(); ++r) {
         const std::span<float> vector = vectors.subspan(r * dimension, dimension);
-        shared.sum(r, mode_factors(factors, instance.box.position_of(positions[r])), vector);
-        for (std::size_t first = 0; first < dimension; first += count)
+        const glm::vec3 position = instance.box.position_of(positions[r]);
+        shared.sum(r, mode_factors(factors, position), vector.first(distant));
+        for (std::size_t first = 0; first < distant; first += count)
             rotation.apply(vector.subspan(first, count), vector.subspan(first, count));
+        float* to = vector.data() + distant;
+        for (std::size_t l = 0; l < instance.lamps.size(); ++l) {
+            const glm::vec3 radiance = shared.lamp_radiance(r, instance.lamps[l], position);
+            if (layout.lamp_terms()[l].channels == 1)
+                *to++ = (radiance.r + radiance.g + radiance.b) / 3;
+            else
+                to = std::copy_n(&radiance[0], 3, to);
+        }
     }
 }
 

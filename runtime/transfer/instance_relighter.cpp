@@ -6,10 +6,13 @@
 #include "prt/core/error.h"
 #include "runtime/support/counted.h"
 #include "runtime/support/parallel.h"
+#include "runtime/transfer/instance_lamps.h"
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace prt {
 namespace {
@@ -45,6 +48,46 @@ void write_row(const InstanceFactors& factors, const ModeConstants& modes, std::
     }
 }
 
+/// Returns the sum of the lights of all lamps at an instance, times their strengths.
+InstanceLampLight lamp_light(const PlacedInstance& instance, std::span<const glm::vec3> strengths) {
+    InstanceLampLight sum;
+    for (std::size_t l = 0; l < instance.lamps.size(); ++l) {
+        const glm::vec3 strength = strengths.empty() ? glm::vec3(1) : strengths[l];
+        for (std::size_t i = 0; i < sum.functions.size(); ++i)
+            for (int c = 0; c < 3; ++c) {
+                const auto color = static_cast<std::size_t>(c);
+                sum.functions[i][color] += strength[c] * instance.lamps[l].functions[i][color];
+            }
+    }
+    return sum;
+}
+
+/// Adds the light of lamps to one row of an instance. `responses` [kInstanceLampFunctions] are those of the
+/// row.
+void add_lamps(const InstanceLampLight& light, const glm::vec3* responses, std::span<glm::vec4, 3> colors) {
+    for (std::size_t i = 0; i < light.functions.size(); ++i)
+        for (int c = 0; c < 3; ++c) {
+            const auto color = static_cast<std::size_t>(c);
+            colors[color] += responses[i][c] * light.functions[i][color];
+        }
+}
+
+/// Returns the constants of all rows under the radiance √(4π)·Y_i, [rows][kInstanceLampFunctions].
+std::vector<glm::vec3> lamp_responses(const ClusterLighting& relighter) {
+    const auto count = static_cast<std::size_t>(coefficient_count(relighter.order()));
+    std::vector<glm::vec3> responses(relighter.rows() * kInstanceLampFunctions, glm::vec3(0));
+    std::vector<glm::vec4> constants(relighter.rows());
+    for (std::size_t i = 0; i < std::min(count, kInstanceLampFunctions); ++i) {
+        Lighting lighting{{relighter.order(), std::vector<glm::vec3>(count, glm::vec3(0))}};
+        lighting.sky.coefficients[i] = glm::vec3(std::sqrt(4 * std::numbers::pi_v<float>));
+        lighting.lamps.assign(relighter.layout().lamps(), glm::vec3(0));
+        relighter.update(lighting, constants);
+        for (std::size_t row = 0; row < constants.size(); ++row)
+            responses[row * kInstanceLampFunctions + i] = glm::vec3(constants[row]);
+    }
+    return responses;
+}
+
 } // namespace
 
 ConstantRows rows_of(const ClusteredTransfer& transfer, std::size_t first, std::size_t count) {
@@ -74,9 +117,12 @@ InstanceRelighter::InstanceRelighter(const ClusteredTransfer& transfer,
     : relighter_(transfer), modes_(transfer.bases.layout.order),
       rotations_(instance_rotations(rotations_of(instances), yaws)),
       instances_(instances.begin(), instances.end()), of_(rotations_.rotations.size()) {
-    if (transfer.bases.layout.outputs != 1 || transfer.bases.layout.lamps() > 0)
-        throw Error("instances with shared transfer do not support lamps");
+    if (transfer.bases.layout.outputs != 1)
+        throw Error("the transfer of instances must have one output");
+    if (transfer.bases.layout.lamps() > 0)
+        responses_ = lamp_responses(relighter_);
     for (std::size_t i = 0; i < instances_.size(); ++i) {
+        check_instance_lamps(transfer.bases.layout, instances_[i].placed);
         of_[rotations_.of[i]].push_back(static_cast<std::uint32_t>(i));
         begins_.push_back(size_);
         size_ += 3 * std::size_t{instances_[i].rows.count};
@@ -100,7 +146,13 @@ std::vector<glm::vec4> InstanceRelighter::table() const {
 
 void InstanceRelighter::update(const Lighting& lighting, std::span<glm::vec4> constants, int threads) const {
     assert(constants.size() >= size_);
-    const std::array<Lighting, kInstanceModes> lightings = modes_.lightings(lighting);
+    const std::size_t lamps = relighter_.layout().lamps();
+    if (!lighting.lamps.empty() && lighting.lamps.size() != lamps)
+        throw Error("the lighting has " + counted(lighting.lamps.size(), "lamp") + ", but the transfer has " +
+                    std::to_string(lamps));
+    std::array<Lighting, kInstanceModes> lightings = modes_.lightings(lighting);
+    for (Lighting& mode : lightings) // the lamps have their own light at instances
+        mode.lamps.assign(lamps, glm::vec3(0));
     parallel_for(of_.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
         ModeConstants modes;
         modes.fill(std::vector<glm::vec4>(relighter_.rows()));
@@ -111,10 +163,16 @@ void InstanceRelighter::update(const Lighting& lighting, std::span<glm::vec4> co
                 all = joined(all, instances_[i].rows);
             for (std::size_t m = 0; m < kInstanceModes; ++m)
                 relighter_.update(rotated[m], modes[m], all.first, all.first + all.count);
-            for (const std::uint32_t i : of_[rotation])
-                for (std::size_t row = 0; row < instances_[i].rows.count; ++row)
-                    write_row(instances_[i].placed.factors, modes, instances_[i].rows.first + row,
-                              constants.subspan(begins_[i] + 3 * row).first<3>());
+            for (const std::uint32_t i : of_[rotation]) {
+                const InstanceLampLight light = lamp_light(instances_[i].placed, lighting.lamps);
+                for (std::size_t row = 0; row < instances_[i].rows.count; ++row) {
+                    const std::size_t of_model = instances_[i].rows.first + row;
+                    const auto colors = constants.subspan(begins_[i] + 3 * row).first<3>();
+                    write_row(instances_[i].placed.factors, modes, of_model, colors);
+                    if (lamps > 0)
+                        add_lamps(light, &responses_[of_model * kInstanceLampFunctions], colors);
+                }
+            }
         }
     });
 }

@@ -124,6 +124,36 @@ std::vector<InstanceFactors> decoded(const CodedFactors& coded) {
     return factors;
 }
 
+CodedLampLight coded(const InstanceLampLight& light) {
+    constexpr float kMax = 127;
+    CodedLampLight result;
+    for (const auto& colors : light.functions)
+        for (const glm::vec4& color : colors)
+            for (int a = 0; a < 4; ++a) {
+                if (!std::isfinite(color[a]))
+                    throw Error("the light of a lamp at an instance is not finite");
+                result.scale = std::max(result.scale, std::abs(color[a]) / kMax);
+            }
+    std::size_t j = 0;
+    for (const auto& colors : light.functions)
+        for (const glm::vec4& color : colors)
+            for (int a = 0; a < 4; ++a, ++j)
+                if (result.scale > 0)
+                    result.bytes[j] = static_cast<std::int8_t>(
+                        std::lround(std::clamp(color[a] / result.scale, -kMax, kMax)));
+    return result;
+}
+
+InstanceLampLight decoded(const CodedLampLight& coded) {
+    InstanceLampLight light;
+    std::size_t j = 0;
+    for (auto& colors : light.functions)
+        for (glm::vec4& color : colors)
+            for (int a = 0; a < 4; ++a, ++j)
+                color[a] = coded.scale * static_cast<float>(coded.bytes[j]);
+    return light;
+}
+
 InstanceBox bounding_box(std::span<const glm::vec3> positions) {
     glm::vec3 low = positions.front(), high = low;
     for (const glm::vec3& position : positions) {

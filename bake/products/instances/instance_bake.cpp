@@ -7,6 +7,7 @@
 #include "bake/pipeline/record.h"
 #include "bake/plan/check_options.h"
 #include "bake/plan/memory.h"
+#include "bake/products/instances/instance_lamps.h"
 #include "bake/products/instances/instance_light.h"
 #include "bake/tracers/make_tracer.h"
 #include "prt/core/error.h"
@@ -30,9 +31,10 @@ void check_instance_options(const BakeOptions& options, const InstanceBakeOption
         throw Error("the number of samples per instance must be at least 8, and their share of rays in 0..1");
 }
 
-/// Returns `options` for the meshes and the scene, without a fit.
+/// Returns `options` for the meshes and the scene, without a fit and without lamps.
 BakeOptions at_vertices(BakeOptions options) {
     options.fit = FitMode::vertex;
+    options.lamps.mode = LampMode::none;
     return options;
 }
 
@@ -54,13 +56,11 @@ class InstanceBaker {
 public:
     InstanceBaker(const InstanceScene& scene, const BakeOptions& options,
                   const InstanceBakeOptions& instances)
-        : scene_(scene), options_(at_vertices(options)), instances_(instances),
+        : scene_(scene), with_lamps_(options), options_(at_vertices(options)), instances_(instances),
           traced_(trace_scene(scene.scene, choose_media(scene.scene, options_), options_)),
           plan_(plan_bake(traced_, choose_media(scene.scene, options_), options_)) {
         if (!plan_.diffusion.empty())
             throw Error("--instances shared does not support subsurface scattering; use --instances own");
-        if (!plan_.lamps.empty())
-            throw Error("--instances shared does not support lamps; use --lamps none or --instances own");
         check_memory(plan_);
     }
 
@@ -70,20 +70,64 @@ public:
         InstanceReceivers receivers = choose_receivers(scene_, plan_, meshes_, instances_.samples);
         const std::unique_ptr<Tracer> tracer = make_tracer(traced_, options_.tracer);
         InstanceLight light(plan_, *tracer, meshes_, std::move(receivers), instances_);
-        light.trace(progress.range(0.3, 0.9));
-        light.bounce(progress.range(0.9, 1));
+        const bool lamps = has_lamps();
+        light.trace(progress.range(0.3, lamps ? 0.5 : 0.9));
+        light.bounce(progress.range(lamps ? 0.5 : 0.9, lamps ? 0.6 : 1));
         result_.baked.transfer = assembled(light);
         record(*tracer, light);
         result_.instances.factors = light.factors();
         for (const SharedMeshBake& mesh : meshes_)
             result_.instances.boxes.push_back(mesh.box);
         result_.errors = light.errors();
+        if (lamps) {
+            result_.flat_lamps = scene_.flat_lamps
+                                     ? scene_.flat_lamps
+                                     : bake_lamps(scene_.scene, with_lamps_, progress.range(0.6, 1));
+            add_lamps(fit_instance_lamps(result_.flat_lamps, meshes_, light.receivers(), options_.threads));
+        }
         result_.statistics.seconds = watch.seconds();
         progress.update(1);
         return std::move(result_);
     }
 
 private:
+    bool has_lamps() const {
+        return with_lamps_.lamps.mode != LampMode::none &&
+               !choose_lamps(traced_.surfaces(), with_lamps_.lamps).empty();
+    }
+
+    /// Adds the light of lamps to the transfer of everything that is drawn once, and to the instances.
+    void add_lamps(InstanceLamps lamps) {
+        Transfer& transfer = result_.baked.transfer;
+        TransferLayout layout = transfer.layout;
+        layout.terms.insert(layout.terms.end(), lamps.terms().begin(), lamps.terms().end());
+        Transfer all = zero_transfer(layout, transfer.receivers());
+        for (std::size_t r = 0; r < all.receivers(); ++r)
+            std::ranges::copy(transfer.vector(r), all.vector(r).begin());
+        const std::vector<std::size_t> flat = flat_arrays(scene_);
+        for (std::size_t a = 0; a < flat.size(); ++a) {
+            if (flat[a] == ~std::size_t{0})
+                continue;
+            const std::size_t first = scene_.scene.vertex_arrays[flat[a]].first_receiver;
+            const VertexArray& vertices = scene_.stored.vertex_arrays[a];
+            for (std::size_t v = 0; v < vertices.size(); ++v)
+                std::ranges::copy(lamps.numbers(first + v),
+                                  all.vector(vertices.first_receiver + v)
+                                      .last(layout.dimension() - transfer.dimension())
+                                      .begin());
+        }
+        transfer = std::move(all);
+        for (std::size_t i = 0; i < lamps.errors.size(); ++i)
+            result_.errors[i] = std::max(result_.errors[i], lamps.errors[i]);
+        result_.lamp_errors = std::move(lamps.errors);
+        result_.instances.lamps = std::move(lamps.lights);
+        const BakeStatistics& statistics = lamps.flat->statistics;
+        result_.statistics.rays += scene_.flat_lamps ? 0 : statistics.rays;
+        for (const std::string& notice : statistics.notices)
+            if (std::ranges::find(result_.statistics.notices, notice) == result_.statistics.notices.end())
+                result_.statistics.notices.push_back(notice);
+    }
+
     void bake_meshes(const Progress& progress) {
         const auto count = static_cast<double>(scene_.meshes.size());
         for (std::size_t m = 0; m < scene_.meshes.size(); ++m) {
@@ -159,7 +203,7 @@ private:
     }
 
     const InstanceScene& scene_;
-    BakeOptions options_;
+    BakeOptions with_lamps_, options_;
     InstanceBakeOptions instances_;
     TraceScene traced_;
     BakePlan plan_;

@@ -67,11 +67,11 @@ private:
     // the light on level ground times a response.
     Eigen::MatrixXf modes_; ///< [dimension][samples · passing modes] weighted, also by area
     Eigen::MatrixXf level_; ///< [dimension][channels] weighted
-    std::vector<std::array<glm::vec3, kAddedModes>> responses_; ///< [samples]
-    std::vector<Eigen::MatrixXf> normals_;                      ///< [samples]
-    Eigen::MatrixXd normal_;                                    ///< sum of `normals_`
-    Eigen::VectorXd open_;                                      ///< unknowns of open_factors()
-    Eigen::MatrixXf skies_;                                     ///< [dimension][soft skies · colors]
+    std::vector<std::array<glm::vec3, kInstanceLampFunctions>> responses_; ///< [samples]
+    std::vector<Eigen::MatrixXf> normals_;                                 ///< [samples]
+    Eigen::MatrixXd normal_;                                               ///< sum of `normals_`
+    Eigen::VectorXd open_;                                                 ///< unknowns of open_factors()
+    Eigen::MatrixXf skies_; ///< [dimension][soft skies · colors]
 };
 
 } // namespace prt

@@ -56,7 +56,8 @@ TEST_F(CInstances, HaveTheConstantsOfCpp) {
         c += glm::vec3(normal(random), normal(random), normal(random));
     std::vector<float> constants(4 * info.constants);
     ASSERT_EQ(prt_instances_update_constants(model, 3, &lighting.sky.coefficients[0].x,
-                                             &lighting.suns->coefficients[0].x, 1, constants.data(), nullptr),
+                                             &lighting.suns->coefficients[0].x, nullptr, 1, constants.data(),
+                                             nullptr),
               PRT_OK);
     const GltfDocument document = parse_gltf(std::as_bytes(std::span(encoded)), "scene.glb");
     const InstancedModel expected = read_instanced(document, extract_scene(document), "scene.glb");
@@ -87,10 +88,12 @@ TEST_F(CInstances, BadArgumentsAreRejected) {
     EXPECT_EQ(prt_instances_of_mesh(model, 2, &first, &count, nullptr), PRT_BAD_ARGUMENT);
     EXPECT_EQ(prt_instances_of_mesh(model, 0, nullptr, &count, nullptr), PRT_BAD_ARGUMENT);
     std::vector<float> light(3 * 9, 1e30f), constants(4 * info.constants);
-    EXPECT_EQ(prt_instances_update_constants(model, 3, light.data(), nullptr, 1, constants.data(), nullptr),
+    EXPECT_EQ(prt_instances_update_constants(model, 3, light.data(), nullptr, nullptr, 1, constants.data(),
+                                             nullptr),
               PRT_BAD_ARGUMENT);
     light.assign(3 * 4, 1);
-    EXPECT_EQ(prt_instances_update_constants(model, 2, light.data(), nullptr, 1, constants.data(), nullptr),
+    EXPECT_EQ(prt_instances_update_constants(model, 2, light.data(), nullptr, nullptr, 1, constants.data(),
+                                             nullptr),
               PRT_BAD_ARGUMENT);
 }
 

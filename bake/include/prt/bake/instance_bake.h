@@ -7,6 +7,7 @@
 #include "prt/bake/bake.h"
 #include "prt/gltf/transfer_gltf.h"
 
+#include <memory>
 #include <vector>
 
 namespace prt {
@@ -34,6 +35,9 @@ struct InstanceScene {
     const std::vector<int>& mesh_nodes;    ///< [meshes] node in `stored` that draws the mesh in its own frame
     const std::vector<int>& node_of; ///< [nodes of `scene`] the same node in `stored`; -1: the node is an
                                      ///< instance
+    /// Result of an earlier call for the same `scene` and options (InstanceBake::flat_lamps), to bake its
+    /// lamps once only; null: bake them.
+    std::shared_ptr<const BakeResult> flat_lamps = {};
 };
 
 /// Measurements of a bake with instances.
@@ -60,15 +64,20 @@ struct InstanceBake {
     StoredInstances instances; ///< factors of the instances, and boxes of the meshes
     /// [instances] relative L2 error of exit radiance at the samples of the instance, without the noise of
     /// their rays. The value is the maximum of the error over the five soft skies together, and of the errors
-    /// under each of InstanceBakeOptions::lights. 0 for an instance whose rays hit nothing except itself.
+    /// under each of InstanceBakeOptions::lights, and of `lamp_errors`. 0 for an instance whose rays hit
+    /// nothing except itself and that no lamp lights.
     std::vector<double> errors;
+    /// [instances] relative L2 error of exit radiance at the vertices of the instance, of all lamps of the
+    /// scene together; empty without lamps.
+    std::vector<double> lamp_errors;
+    std::shared_ptr<const BakeResult> flat_lamps; ///< bake of all lamps at all vertices; null without lamps
     InstanceStatistics statistics;
 };
 
 /// Bakes `scene` with shared transfer, at vertices, without the noise filter. Throws the errors of `bake`,
-/// and `Error` for features that shared transfer does not support (lamps, media, depth maps, target errors
+/// and `Error` for features that shared transfer does not support (media, depth maps, target errors
 /// and FitMode::surface), for `samples` or `rays` of `instances` outside their range, and for an instance
-/// that does not have the vertices of its mesh. A scene with lamps needs LampMode::none.
+/// that does not have the vertices of its mesh. Lamps are baked at all vertices of `scene`.
 InstanceBake bake_instances(const InstanceScene& scene, const BakeOptions& options,
                             const InstanceBakeOptions& instances = {}, const Progress& progress = {});
 

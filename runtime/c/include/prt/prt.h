@@ -286,12 +286,12 @@ PRT_API prt_status prt_instances_of_mesh(const prt_model* model, size_t mesh, si
                                          prt_message* message);
 /* Computes the constants of all instances and writes them to `constants` [prt_instances_info.constants][4].
  * The shader of prt_instances_shader reads these instead of the constants of the model. `order`, `sky`,
- * `suns` and the limits are those of prt_model_update_constants_separate; `suns` may be null. Models with
- * instances have no lamps. `threads`: number of threads, 0: all of the machine. For a model without instances
+ * `suns`, `lamps` and the limits are those of prt_model_update_constants_separate; `suns` and `lamps` may be
+ * null. `threads`: number of threads, 0: all of the machine. For a model without instances
  * returns PRT_BAD_ARGUMENT. */
 PRT_API prt_status prt_instances_update_constants(const prt_model* model, int order, const float* sky,
-                                                  const float* suns, int threads, float* constants,
-                                                  prt_message* message);
+                                                  const float* suns, const float* lamps, int threads,
+                                                  float* constants, prt_message* message);
 /* Writes the source of the vertex shader for instances, with a final 0, to `source`. The shader has the
  * inputs of prt_model_shader, and per instance the rows of prt_instances_info.worlds at locations 10 to 12
  * and those of prt_instances_info.tables at locations 13 and 14. `language`, `constants`, `source` and *size

@@ -10,12 +10,16 @@
 // (reflected) modes have constant colors. Arrays of modes contain the passing modes first.
 // Y_i is the SH basis function number i.
 //
+// Lamps of the scene have their own light at each instance: incident light that is linear in the position
+// within the box.
+//
 // Each frame:
 //     modes.lightings(lighting)                      // once for all instances
 // Then per vertex:
-//     R = sum over modes of factor(instance, position) R_mode
+//     R = sum over modes of factor(instance, position) R_mode + sum over lamps of strength R_lamp
 // R_mode is the vertex's exit radiance under the lighting of that mode, rotated into the frame of the
-// instance. `InstanceRelighter` folds the factors into constants for shaders. Experimental.
+// instance, R_lamp that under the light of a lamp. `InstanceRelighter` folds the factors into constants for
+// shaders. Experimental.
 
 #include "prt/core/cluster_lighting.h"
 #include "prt/core/glm_layout.h"
@@ -63,6 +67,31 @@ struct InstanceFactors {
 
     friend bool operator==(const InstanceFactors&, const InstanceFactors&) = default;
 };
+
+/// Number of SH functions of the light of a lamp at an instance: those of three bands.
+inline constexpr std::size_t kInstanceLampFunctions = 9;
+/// Number of floats in `InstanceLampLight`.
+inline constexpr std::size_t kInstanceLampNumbers = kInstanceLampFunctions * 3 * 4;
+
+/// Incident light of a lamp at an instance, with all bounces in the surroundings, for the lamp's strength in
+/// the scene. At the relative position u in the box of the mesh (`InstanceBox::position_of`), the radiance of
+/// color c is the sum over i of dot(functions[i][c], (u, 1)) times √(4π)·Y_i, in the axes of the mesh.
+struct InstanceLampLight {
+    std::array<std::array<glm::vec4, 3>, kInstanceLampFunctions> functions{}; ///< [functions][colors]
+
+    friend bool operator==(const InstanceLampLight&, const InstanceLampLight&) = default;
+};
+
+/// Light of a lamp in bytes, as stored in files: number j of `functions` is `scale` times byte j.
+struct CodedLampLight {
+    float scale = 0;                                       ///< step of all numbers, not negative
+    std::array<std::int8_t, kInstanceLampNumbers> bytes{}; ///< -127..127
+};
+/// Returns the coded light, with `scale` the largest magnitude divided by 127. Rounds each number to the
+/// nearest step. Throws `Error` for numbers that are not finite.
+CodedLampLight coded(const InstanceLampLight& light);
+/// Returns the light as rounded by `coded`.
+InstanceLampLight decoded(const CodedLampLight& coded);
 
 /// Returns the factors of an instance without surroundings. Its light is exactly that of its baked mesh.
 InstanceFactors open_factors();
@@ -124,7 +153,8 @@ public:
     std::span<const float> level() const { return level_; }
     /// Returns the lighting of each mode under `lighting`, in `order()` bands; ignores further bands of
     /// `lighting`. A passing mode has suns if `lighting` has suns. An added mode has all its light in `sky`.
-    /// Throws `Error` if `lighting.lamps` is not empty, or if sky or suns have fewer bands than `order()`.
+    /// Ignores `lighting.lamps`; the results have no lamps. Throws `Error` if sky or suns have fewer bands
+    /// than `order()`.
     std::array<Lighting, kInstanceModes> lightings(const Lighting& lighting) const;
 
 private:
@@ -138,11 +168,12 @@ class SharedTransfer {
 public:
     /// Computes the transfer vectors; keeps no reference to `transfer`. `transfer` contains the receivers of
     /// the mesh alone, without surroundings. `up` is the unit vector away from the ground. Both are in the
-    /// frame of the mesh. `transfer` must have at least one term. Throws `Error` if its order is not in
-    /// 1..kMaxOrder, or if it has lamps or several outputs. Uses `threads` threads; 0: all hardware threads.
+    /// frame of the mesh. `transfer` must have at least one term of distant light. Ignores its lamps. Throws
+    /// `Error` if its order is not in 1..kMaxOrder, or if it has no term of distant light or several outputs.
+    /// Uses `threads` threads; 0: all hardware threads.
     SharedTransfer(const Transfer& transfer, const glm::dvec3& up, int threads = 0);
 
-    /// Returns the layout of the transfer passed to the constructor.
+    /// Returns the layout of the transfer passed to the constructor, without its lamps.
     const TransferLayout& layout() const { return layout_; }
     /// Returns the number of receivers of the mesh.
     std::size_t receivers() const { return responses_.size(); }
@@ -153,11 +184,16 @@ public:
         const std::size_t dimension = layout_.dimension();
         return std::span(passing_).subspan((receiver * kPassingModes + mode) * dimension, dimension);
     }
-    /// Returns the exit radiance of `receiver` for albedo 1 under the radiance √(4π)·Y_i of each added mode
-    /// i, without the factor for the radiance of the ground, summed over all terms of the transfer.
-    const std::array<glm::vec3, kAddedModes>& responses(std::size_t receiver) const {
+    /// Returns the exit radiance of `receiver` for albedo 1 under the radiance √(4π)·Y_i for each function i,
+    /// summed over all terms of the transfer. The first kAddedModes are those of added modes, without the
+    /// factor for the radiance of the ground.
+    const std::array<glm::vec3, kInstanceLampFunctions>& responses(std::size_t receiver) const {
         return responses_[receiver];
     }
+    /// Returns the exit radiance of `receiver` for albedo 1 under the light of a lamp with strength 1, at the
+    /// relative position `position` in the box.
+    glm::vec3 lamp_radiance(std::size_t receiver, const InstanceLampLight& light,
+                            const glm::vec3& position) const;
     /// Returns `InstanceModes::level` in the frame of the mesh: [order²].
     std::span<const float> level() const { return modes_.level(); }
     /// Writes the transfer vector of `receiver` in an instance to `vector` [layout().dimension()], in the
@@ -170,8 +206,8 @@ public:
 private:
     TransferLayout layout_;
     InstanceModes modes_;
-    std::vector<float> passing_;                                ///< [receivers][kPassingModes][dimension]
-    std::vector<std::array<glm::vec3, kAddedModes>> responses_; ///< [receivers]
+    std::vector<float> passing_; ///< [receivers][kPassingModes][dimension]
+    std::vector<std::array<glm::vec3, kInstanceLampFunctions>> responses_; ///< [receivers]
 };
 
 /// Returns factors in the axes of the mesh from `factors` in the axes of the world. `rotation` maps vectors
@@ -187,14 +223,18 @@ struct PlacedInstance {
     InstanceFactors factors; ///< in the axes of the world
     glm::dmat3 rotation{1};  ///< maps vectors of the mesh's frame to the world's; without scale
     InstanceBox box;         ///< box of the mesh, in the mesh's frame
+    std::vector<InstanceLampLight> lamps = {}; ///< [lamps of the transfer]
 };
 
 /// Writes the transfer vectors of an instance, in the frame of the world, to `vectors`
-/// [shared.receivers()][shared.layout().dimension()]. `positions` [shared.receivers()] are in the frame of
-/// the mesh. The `up` of `shared` must be transpose(instance.rotation) · (0, 1, 0): the up direction of the
-/// world in the frame of the mesh. Throws `Error` if instance.rotation is not a rotation.
-void expand_instance(const SharedTransfer& shared, const PlacedInstance& instance,
-                     std::span<const glm::vec3> positions, std::span<float> vectors);
+/// [shared.receivers()][layout.dimension()]. `layout` is that of the transfer from which `shared` was made,
+/// with its lamps. `positions` [shared.receivers()] are in the frame of the mesh. The `up` of `shared` must
+/// be transpose(instance.rotation) · (0, 1, 0): the up direction of the world in the frame of the mesh. A
+/// lamp term with one channel gets the mean of the colors. Throws `Error` if instance.rotation is not a
+/// rotation, or if `instance.lamps` has not one light for each lamp of `layout`.
+void expand_instance(const SharedTransfer& shared, const TransferLayout& layout,
+                     const PlacedInstance& instance, std::span<const glm::vec3> positions,
+                     std::span<float> vectors);
 
 /// Rotations that replace the rotations of instances. Instances with the same replacement share one rotated
 /// lighting.
@@ -249,7 +289,8 @@ public:
     /// degrees: all these instances together need at most `yaws` rotated lightings. For all other instances,
     /// and for all instances if `yaws` is 0, the error of the rotation is at most 0.01 degrees
     /// (`instance_rotations`). Throws `Error` if the layout of `transfer` is invalid (`check_layout`), if
-    /// `transfer` has lamps or several outputs, or if the constants exceed 4 GB.
+    /// `transfer` has several outputs, if an instance has not one light for each lamp of `transfer`, or if
+    /// the constants exceed 4 GB.
     InstanceRelighter(const ClusteredTransfer& transfer, std::span<const RelitInstance> instances,
                       int yaws = 64);
 
@@ -267,9 +308,9 @@ public:
     /// Computes the constants of all instances for `lighting`, which is in the frame of the world, and writes
     /// them to `constants` [size()]: instance by instance, row by row, then red, green, blue. The color of a
     /// row at the relative position u in the box is dot(vector, (u, 1)) for each of the three vectors. Throws
-    /// `Error` if `lighting.lamps` is not empty, or if sky or suns have fewer bands than the transfer. Throws
-    /// the errors of `rotated_into` for instances whose rotation the constructor does not round. Uses
-    /// `threads` threads; 0: all hardware threads.
+    /// `Error` if sky or suns have fewer bands than the transfer, or if `lighting.lamps` has neither 0
+    /// elements nor one for each lamp. Throws the errors of `rotated_into` for instances whose rotation the
+    /// constructor does not round. Uses `threads` threads; 0: all hardware threads.
     void update(const Lighting& lighting, std::span<glm::vec4> constants, int threads = 0) const;
 
 private:
@@ -277,6 +318,8 @@ private:
     InstanceModes modes_;
     InstanceRotations rotations_;
     std::vector<RelitInstance> instances_;
+    /// [rows][kInstanceLampFunctions] constants under the radiance √(4π)·Y_i; empty without lamps
+    std::vector<glm::vec3> responses_;
     std::vector<std::size_t> begins_; ///< [instances] index of the instance's first vector in the constants
     std::vector<std::vector<std::uint32_t>> of_; ///< [rotations] indices of the instances with each rotation
     std::size_t size_ = 0;

@@ -67,9 +67,9 @@ struct SharedDocument {
 SharedDocument with_shared_meshes(const GltfDocument& document, const std::vector<SharedMesh>& meshes);
 
 /// Writes `instances` into `document`, a result of `with_shared_meshes`, with the same numbers of instances
-/// and meshes. Each number of the factors is rounded to one byte. Throws `Error` if a number of the factors
-/// is not finite or its magnitude exceeds `kMaxInstanceFactor`. Does not check the boxes; files need half
-/// sizes greater than 0.
+/// and meshes. Each number of the factors and of the light of lamps is rounded to one byte. Throws `Error` if
+/// a number is not finite, or if the magnitude of a factor exceeds `kMaxInstanceFactor`. Does not check the
+/// boxes; files need half sizes greater than 0.
 void write_instances(GltfDocument& document, const StoredInstances& instances);
 
 /// Returns whether instances of the file share transfer and `document` was read with `Instancing::nodes`. If

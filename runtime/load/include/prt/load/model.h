@@ -33,6 +33,8 @@ struct StoredInstances {
     std::vector<InstanceFactors> factors; ///< [instances] in axes of the world; mesh by mesh, and within a
                                           ///< mesh placement by placement
     std::vector<InstanceBox> boxes;       ///< [shared meshes] bounding box of the mesh, in the mesh's frame
+    /// [instances][lamps] light of the lamps of the transfer at each instance; empty without lamps.
+    std::vector<std::vector<InstanceLampLight>> lamps = {};
 };
 
 /// An instance of a mesh that shares transfer. Some functions of prt/gltf read a file in two forms: as a flat
