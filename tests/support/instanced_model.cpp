@@ -31,7 +31,8 @@ GlbFile instanced_triangles() {
     std::mt19937 random(5);
     std::normal_distribution<float> normal;
     ClusteredTransfer transfer;
-    transfer.bases.layout = {3, {{TermKind::direct, 1}, {TermKind::indirect, 3}}};
+    transfer.bases.layout = {
+        3, {{TermKind::direct, 1}, {TermKind::indirect, 3}, {TermKind::lamp, 3, "Lantern"}}};
     transfer.bases.components = {1, 2};
     for (std::size_t i = 0; i < 5 * transfer.bases.dimension(); ++i)
         transfer.bases.rows.push_back(normal(random));
@@ -53,6 +54,11 @@ GlbFile instanced_triangles() {
         for (float& number : numbers)
             number = normal(random);
         instances.factors.push_back(factors_of(numbers));
+        InstanceLampLight& light = instances.lamps.emplace_back().emplace_back();
+        for (auto& colors : light.functions)
+            for (glm::vec4& color : colors)
+                for (int a = 0; a < 4; ++a)
+                    color[a] = normal(random);
     }
     write_instances(shared.document, instances);
     return glb_of(encode_glb(shared.document));

@@ -51,13 +51,14 @@ TEST_F(CInstances, MatchTheFile) {
 TEST_F(CInstances, HaveTheConstantsOfCpp) {
     std::mt19937 random(7);
     std::normal_distribution<float> normal;
-    Lighting lighting{constant_light(3, glm::vec3(1)), constant_light(3, glm::vec3(0.5f))};
+    Lighting lighting{
+        constant_light(3, glm::vec3(1)), constant_light(3, glm::vec3(0.5f)), {glm::vec3(0.5f, 2, 1)}};
     for (glm::vec3& c : lighting.sky.coefficients)
         c += glm::vec3(normal(random), normal(random), normal(random));
     std::vector<float> constants(4 * info.constants);
     ASSERT_EQ(prt_instances_update_constants(model, 3, &lighting.sky.coefficients[0].x,
-                                             &lighting.suns->coefficients[0].x, nullptr, 1, constants.data(),
-                                             nullptr),
+                                             &lighting.suns->coefficients[0].x, &lighting.lamps[0].x, 1,
+                                             constants.data(), nullptr),
               PRT_OK);
     const GltfDocument document = parse_gltf(std::as_bytes(std::span(encoded)), "scene.glb");
     const InstancedModel expected = read_instanced(document, extract_scene(document), "scene.glb");

@@ -48,6 +48,13 @@ struct Draw {
             value = number();
         return factors_of(numbers);
     }
+    InstanceLampLight lamp() {
+        InstanceLampLight light;
+        for (auto& colors : light.functions)
+            for (glm::vec4& color : colors)
+                color = {vector(), number()};
+        return light;
+    }
     glm::dmat3 rotation() {
         const glm::dvec3 axis = glm::normalize(glm::dvec3(vector()));
         return glm::dmat3(glm::angleAxis(2.0 * static_cast<double>(number()), axis));
@@ -64,7 +71,7 @@ std::vector<float> expanded_vectors(const Transfer& transfer, const PlacedInstan
                                     const std::vector<glm::vec3>& positions) {
     const SharedTransfer shared(transfer, glm::transpose(placed.rotation) * glm::dvec3(0, 1, 0));
     std::vector<float> vectors(transfer.vectors.size());
-    expand_instance(shared, placed, positions, vectors);
+    expand_instance(shared, transfer.layout, placed, positions, vectors);
     return vectors;
 }
 
@@ -204,7 +211,11 @@ TEST(Instances, UprightInstancesShareRotationsOfFewYaws) {
 /// Returns random weights: three clusters of four receivers each, the last with three components.
 ClusteredTransfer clustered_mesh(Draw& draw) {
     ClusteredTransfer mesh;
-    mesh.bases.layout = {kOrder, {{TermKind::direct, 1}, {TermKind::indirect, 3}}};
+    mesh.bases.layout = {kOrder,
+                         {{TermKind::direct, 1},
+                          {TermKind::indirect, 3},
+                          {TermKind::lamp, 3, "Lantern"},
+                          {TermKind::lamp, 3, "Fire"}}};
     mesh.bases.components = {2, 1, 3};
     for (std::size_t i = 0; i < (3 + 6) * mesh.bases.dimension(); ++i)
         mesh.bases.rows.push_back(draw.number());
@@ -237,12 +248,14 @@ std::vector<glm::vec4> constants_at(std::span<const glm::vec4> computed, const g
 TEST(Instances, ConstantsAreModesTimesFactors) {
     Draw draw;
     const ClusteredTransfer mesh = clustered_mesh(draw);
-    const Lighting lighting{draw.light(), draw.light()};
+    const Lighting lighting{draw.light(), draw.light(), {draw.vector(), draw.vector()}};
     std::vector<RelitInstance> instances;
     for (const std::size_t first : {0u, 4u, 8u, 0u}) // first receiver of a mesh with one cluster, or with all
-        instances.push_back(
-            {{draw.factors(), draw.rotation(), {draw.vector(), glm::abs(draw.vector()) + 0.1f}},
-             rows_of(mesh, first, instances.size() == 3 ? 12 : 4)});
+        instances.push_back({{draw.factors(),
+                              draw.rotation(),
+                              {draw.vector(), glm::abs(draw.vector()) + 0.1f},
+                              {draw.lamp(), draw.lamp()}},
+                             rows_of(mesh, first, instances.size() == 3 ? 12 : 4)});
     EXPECT_EQ(instances[1].rows.first, 3u);
     EXPECT_EQ(instances[1].rows.count, 2u);
     EXPECT_EQ(joined(instances[0].rows, instances[2].rows).count, instances[3].rows.count);
@@ -257,7 +270,7 @@ TEST(Instances, ConstantsAreModesTimesFactors) {
         const SharedTransfer shared(decoded, glm::transpose(placed.rotation) * glm::dvec3(0, 1, 0));
         const std::vector<glm::vec3> positions(12, draw.vector());
         std::vector<float> vectors(decoded.vectors.size());
-        expand_instance(shared, placed, positions, vectors);
+        expand_instance(shared, decoded.layout, placed, positions, vectors);
         const std::vector<glm::vec3> expected = lit(decoded.layout, vectors, lighting);
         const std::size_t first = i == 3 ? 0 : 4 * i, count = i == 3 ? 12 : 4;
         std::vector<glm::vec4> constants =
@@ -271,18 +284,53 @@ TEST(Instances, ConstantsAreModesTimesFactors) {
     }
 }
 
-TEST(Instances, RelightersRejectLamps) {
-    Draw draw;
-    ClusteredTransfer mesh = clustered_mesh(draw);
-    mesh.bases.layout.terms.push_back({TermKind::lamp, 1, "Lantern"});
-    mesh.bases.rows.resize(constant_rows(mesh.bases) * mesh.bases.dimension());
-    EXPECT_THROW(InstanceRelighter(mesh, {}), Error);
+/// Incident light that is (1 + 2 u_x) (1 + d_y), only in red, on an unoccluded receiver that faces +y:
+/// the irradiance over pi is (1 + 2 u_x) (1 + 2/3).
+TEST(Instances, LampLightIsIncidentLightThatIsLinearInThePosition) {
+    Transfer transfer = zero_transfer({3, {{TermKind::direct, 1}, {TermKind::lamp, 3, "Lantern"}}}, 2);
+    std::vector<float> lobe(9);
+    clamped_cosine_lobe(3, glm::dvec3(0, 1, 0), std::span(lobe));
+    for (std::size_t r = 0; r < 2; ++r)
+        std::ranges::copy(lobe, transfer.vector(r).begin());
+    InstanceLampLight light;
+    light.functions[0][0] = {2, 0, 0, 1};                             // sqrt(4 pi) Y_00 = 1
+    light.functions[1][0] = light.functions[0][0] / -std::sqrt(3.0f); // sqrt(4 pi) Y_1-1 = -sqrt(3) y
+    const InstanceBox box{glm::vec3(1, 0, 0), glm::vec3(2)};
+    const std::vector<glm::vec3> positions = {glm::vec3(1, 0, 0), glm::vec3(3, 0, 0)};
+    const std::vector<float> vectors =
+        expanded_vectors(transfer, {open_factors(), glm::dmat3(1), box, {light}}, positions);
+    EXPECT_NEAR(vectors[9], 5.0f / 3, 1e-5f);
+    EXPECT_NEAR(vectors[12 + 9], 5.0f, 1e-5f);
+    EXPECT_EQ(vectors[10], 0);
+    EXPECT_EQ(vectors[12 + 11], 0);
 }
 
-TEST(Instances, LampsAreRejected) {
-    TransferLayout layout = layout_of_one(3, 1);
-    layout.terms.push_back({TermKind::lamp, 1, "Lantern"});
-    EXPECT_THROW(SharedTransfer(zero_transfer(layout, 1), {0, 1, 0}), Error);
+TEST(Instances, BytesOfLampLightAreClose) {
+    Draw draw;
+    const InstanceLampLight light = draw.lamp();
+    const CodedLampLight bytes = coded(light);
+    const InstanceLampLight again = decoded(bytes);
+    for (std::size_t i = 0; i < kInstanceLampFunctions; ++i)
+        for (std::size_t c = 0; c < 3; ++c)
+            for (int a = 0; a < 4; ++a)
+                EXPECT_NEAR(again.functions[i][c][a], light.functions[i][c][a], 0.5001f * bytes.scale);
+    EXPECT_EQ(decoded(coded(InstanceLampLight{})), InstanceLampLight{});
+    InstanceLampLight bad = light;
+    bad.functions[3][1].z = std::numeric_limits<float>::infinity();
+    EXPECT_THROW(coded(bad), Error);
+}
+
+TEST(Instances, NeedLightOfEachLamp) {
+    Draw draw;
+    const ClusteredTransfer mesh = clustered_mesh(draw);
+    const RelitInstance instance{{draw.factors(), draw.rotation(), {}, {draw.lamp()}}, rows_of(mesh, 0, 4)};
+    EXPECT_THROW(InstanceRelighter(mesh, std::span(&instance, 1)), Error);
+    std::vector<float> vectors(mesh.bases.dimension() * 12);
+    const SharedTransfer shared(decode(mesh), {0, 1, 0});
+    EXPECT_THROW(
+        expand_instance(shared, mesh.bases.layout, instance.placed, std::vector<glm::vec3>(12), vectors),
+        Error);
+    EXPECT_THROW(SharedTransfer(zero_transfer({3, {{TermKind::lamp, 1, "Lantern"}}}, 1), {0, 1, 0}), Error);
     EXPECT_THROW(InstanceModes(3).lightings({constant_light(2, glm::vec3(1))}), Error);
     EXPECT_THROW(InstanceModes(0), Error);
 }

@@ -68,8 +68,9 @@ struct InstanceFactors {
     friend bool operator==(const InstanceFactors&, const InstanceFactors&) = default;
 };
 
-/// Number of SH functions of the light of a lamp at an instance: those of three bands.
-inline constexpr std::size_t kInstanceLampFunctions = 9;
+/// Number of SH functions of the light of a lamp at an instance: those of five bands, which contain 99.8 % of the
+/// energy of the clamped cosine; its sixth band is zero (Ramamoorthi and Hanrahan 2001, eq. 8).
+inline constexpr std::size_t kInstanceLampFunctions = 25;
 /// Number of floats in `InstanceLampLight`.
 inline constexpr std::size_t kInstanceLampNumbers = kInstanceLampFunctions * 3 * 4;
 
