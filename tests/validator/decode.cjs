@@ -140,6 +140,14 @@ function codedRows(glb, code, rows) {
   });
 }
 
+/// Returns a function that returns the step of axis i in cluster k of coded bases.
+function stepsOf(glb, { components, bases: { step, steps } }) {
+  if (!steps) return () => step;
+  const groups = steps.axes.flatMap((count, group) => Array(count).fill(group));
+  const exponents = codedRows(glb, steps, components.length);
+  return (k, i) => steps.least * 2 ** exponents[k][groups[i]];
+}
+
 /// Returns for each cluster its mean, the rows of its predictors and its directions.
 function clusterRows(glb, set) {
   const dimension = dimensionOf(set);
@@ -147,17 +155,19 @@ function clusterRows(glb, set) {
   const count = set.components.reduce((sum, m) => sum + 1 + predicted + m, 0);
   let rows;
   if ("values" in set.bases) {
-    const { origin, scales, step, axes, values, units } = set.bases;
+    const { origin, scales, axes, values, units } = set.bases;
+    const step = stepsOf(glb, set);
     const unit = units ? glb.floats(units) : Array(dimension).fill(1);
     const start = glb.floats(origin);
     const scale = glb.floats(scales);
     const axis = codedRows(glb, axes, scale.length);
+    const cluster = set.components.flatMap((m, k) => Array(1 + predicted + m).fill(k));
     const isMean = set.components.flatMap((m) => [true, ...Array(predicted + m).fill(false)]);
     const factor = set.components.flatMap((m) => [...Array(1 + predicted).fill(1), ...Array(m).fill(2)]);
     rows = codedRows(glb, values, count).map((value, r) => {
       const row = isMean[r] ? [...start] : Array(dimension).fill(0);
       value.forEach((v, i) => {
-        for (let a = 0; a < dimension; ++a) row[a] += factor[r] * step * scale[i] * v * axis[i][a] * unit[a];
+        for (let a = 0; a < dimension; ++a) row[a] += factor[r] * step(cluster[r], i) * scale[i] * v * axis[i][a] * unit[a];
       });
       return row;
     });
