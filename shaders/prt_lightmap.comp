@@ -1,4 +1,4 @@
-// Computes the exit radiance for albedo 1 of the texels of a lightmap (docs/format.md, PRTKIT_lightmap), one
+// Computes the exit radiance for albedo 1 of the texels of a lightmap (docs/format.md, "Texels"), one
 // texel per thread. Dispatched when the lighting changes. Surfaces then sample the map like any texture, with
 // filtering. Dispatch (width + 7) / 8 by (height + 7) / 8 groups, then generate mipmaps.
 //

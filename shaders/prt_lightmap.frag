@@ -1,4 +1,4 @@
-// Computes the exit radiance for albedo 1 of the texels of a lightmap (docs/format.md, PRTKIT_lightmap).
+// Computes the exit radiance for albedo 1 of the texels of a lightmap (docs/format.md, "Texels").
 // Drawn to a target of the map's size when the lighting changes. Surfaces then sample the map like any
 // texture, with filtering. For GLSL 3.3, GLSL ES 3.0 and later.
 //

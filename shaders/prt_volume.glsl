@@ -1,4 +1,4 @@
-// Looks up the light of a volume at a position (docs/format.md, PRTKIT_transfer_volume). For GLSL 4.5 and 3.3,
+// Looks up the light of a volume at a position (docs/format.md, "Probes"). For GLSL 4.5 and 3.3,
 // GLSL ES 3.0 and Vulkan:
 //
 //     vec3 prt_volume_irradiance(vec3 position, vec3 normal)

@@ -12,17 +12,17 @@ STRANGE_NUMBERS = [0, 1, 2, 3, 4, 7, 8, 12, 16, 17, 240, 255, 256, 1023, 1024, 6
 STRANGE_STRINGS = ["", ".", "..", "/", "%00", "\x00", "a\nb", "a\rb", "\x1b[31mred\x1b[0m", "\x9b31m", "\x07", "\u202ertl", "\ud800", "é" * 300,
                    "x" * 5000, "../../../../etc/hostname", "/etc/hostname", "file:///etc/hostname", "http://localhost/x.bin", "gone.bin",
                    "data:application/octet-stream;base64,AAAA", "data:image/png;base64,AAAA", "data:", "SCALAR", "VEC3", "MAT4", "%s%n",
-                   "2.0", "1.0", "TRIANGLES", "QUATERNION"]
+                   "2.0", "1.0", "TRIANGLES", "QUATERNION", "vertices", "texels", "probes", "raw", "clustered"]
 STRANGE_FLOATS = [b"\x00\x00\xc0\x7f", b"\x00\x00\x80\x7f", b"\x00\x00\x80\xff", b"\xff\xff\x7f\x7f", b"\xff\xff\x7f\xff",
                   b"\x01\x00\x00\x00", b"\x00\x00\x00\x80", b"\xff\xff\xff\xff", struct.pack("<f", 2e18), struct.pack("<f", 1e25)]
 INDICES = {"accessor", "buffer", "bufferView", "camera", "index", "indices", "input", "joint", "material", "mesh", "node", "output",
-           "sampler", "scene", "skeleton", "skin", "source", "images", "map", "texCoord", "TEXCOORD_1", "inverseBindMatrices", "POSITION", "NORMAL", "TEXCOORD_0", "COLOR_0",
+           "sampler", "scene", "skeleton", "skin", "source", "images", "map", "texCoord", "firstVertex", "TEXCOORD_1", "inverseBindMatrices", "POSITION", "NORMAL", "TEXCOORD_0", "COLOR_0",
            "JOINTS_0", "WEIGHTS_0", "_PRT_CLUSTER", "_PRT_WEIGHTS_0", "_PRT_WEIGHTS_1"}
 SIZES = {"count", "byteLength", "byteOffset", "byteStride", "clusterBits", "order", "channels", "components", "componentType", "target", "width",
          "height"}
 EXTENSIONS = ["KHR_draco_mesh_compression", "EXT_meshopt_compression", "EXT_mesh_gpu_instancing", "KHR_materials_volume",
-              "KHR_texture_transform", "KHR_mesh_quantization", "KHR_node_visibility", "PRTKIT_transfer", "PRTKIT_clustered_pca", "PRTKIT_lightmap",
-              "EXT_unheard_of"]
+              "KHR_texture_transform", "KHR_mesh_quantization", "KHR_node_visibility", "PRTKIT_transfer", "PRTKIT_clustered_pca",
+              "PRTKIT_instances", "PRTKIT_lobes", "EXT_unheard_of"]
 
 
 class Model:

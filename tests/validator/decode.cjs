@@ -62,6 +62,11 @@ class Glb {
     return elements;
   }
 
+  /// Returns the set of these receivers; undefined if there is none.
+  set(receivers) {
+    return this.json.extensions.PRTKIT_transfer.sets.find((set) => set.receivers === receivers);
+  }
+
   primitives() {
     return this.json.meshes.flatMap((mesh) => mesh.primitives);
   }
@@ -73,8 +78,8 @@ const dimensionOf = ({ order, terms }) =>
   terms.reduce((sum, term) => sum + term.channels * columnsOf(term, order), 0);
 
 /// Returns the vectors [receivers][S] of a buffer view.
-function rawVectors(glb, extension, view) {
-  const dimension = dimensionOf(extension);
+function rawVectors(glb, set, view) {
+  const dimension = dimensionOf(set);
   const values = glb.floats(view);
   return Array.from({ length: values.length / dimension }, (_, p) => values.slice(p * dimension, (p + 1) * dimension));
 }
@@ -135,39 +140,49 @@ function codedRows(glb, code, rows) {
   });
 }
 
+/// Returns a function that returns the step of axis i in cluster k of coded bases.
+function stepsOf(glb, { components, bases: { step, steps } }) {
+  if (!steps) return () => step;
+  const groups = steps.axes.flatMap((count, group) => Array(count).fill(group));
+  const exponents = codedRows(glb, steps, components.length);
+  return (k, i) => steps.least * 2 ** exponents[k][groups[i]];
+}
+
 /// Returns for each cluster its mean, the rows of its predictors and its directions.
-function clusterRows(glb, extension) {
-  const dimension = dimensionOf(extension);
-  const predicted = 3 * (extension.predictors ?? []).length;
-  const count = extension.components.reduce((sum, m) => sum + 1 + predicted + m, 0);
+function clusterRows(glb, set) {
+  const dimension = dimensionOf(set);
+  const predicted = 3 * (set.predictors ?? []).length;
+  const count = set.components.reduce((sum, m) => sum + 1 + predicted + m, 0);
   let rows;
-  if ("values" in extension.bases) {
-    const { origin, scales, step, axes, values, units } = extension.bases;
+  if ("values" in set.bases) {
+    const { origin, scales, axes, values, units } = set.bases;
+    const step = stepsOf(glb, set);
     const unit = units ? glb.floats(units) : Array(dimension).fill(1);
     const start = glb.floats(origin);
     const scale = glb.floats(scales);
     const axis = codedRows(glb, axes, scale.length);
-    const isMean = extension.components.flatMap((m) => [true, ...Array(predicted + m).fill(false)]);
-    const factor = extension.components.flatMap((m) => [...Array(1 + predicted).fill(1), ...Array(m).fill(2)]);
+    const cluster = set.components.flatMap((m, k) => Array(1 + predicted + m).fill(k));
+    const isMean = set.components.flatMap((m) => [true, ...Array(predicted + m).fill(false)]);
+    const factor = set.components.flatMap((m) => [...Array(1 + predicted).fill(1), ...Array(m).fill(2)]);
     rows = codedRows(glb, values, count).map((value, r) => {
       const row = isMean[r] ? [...start] : Array(dimension).fill(0);
       value.forEach((v, i) => {
-        for (let a = 0; a < dimension; ++a) row[a] += factor[r] * step * scale[i] * v * axis[i][a] * unit[a];
+        for (let a = 0; a < dimension; ++a) row[a] += factor[r] * step(cluster[r], i) * scale[i] * v * axis[i][a] * unit[a];
       });
       return row;
     });
   } else {
-    const floats = glb.floats(extension.bases);
+    const floats = glb.floats(set.bases);
     rows = Array.from({ length: count }, (_, r) => floats.slice(r * dimension, (r + 1) * dimension));
   }
   let next = 0;
-  return extension.components.map((m) => rows.slice(next, (next += 1 + predicted + m)));
+  return set.components.map((m) => rows.slice(next, (next += 1 + predicted + m)));
 }
 
 /// Returns the coordinates of every vertex of a primitive in the predictors. The scene's nodes must not
 /// transform their meshes.
-function predictorCoordinates(glb, extension, primitive) {
-  const predictors = extension.predictors ?? [];
+function predictorCoordinates(glb, set, primitive) {
+  const predictors = set.predictors ?? [];
   const normals = glb.accessor(primitive.attributes.NORMAL);
   return glb.accessor(primitive.attributes.POSITION).map((position, p) =>
     predictors.flatMap(({ kind, origin }) => {
@@ -191,18 +206,18 @@ function packedCodes(glb, { components, packing }) {
 }
 
 /// Returns cluster and weights of every vertex of a primitive.
-function vertexCodes(glb, extension, primitive) {
+function vertexCodes(glb, set, primitive) {
   const groups = [];
   while (`_PRT_WEIGHTS_${groups.length}` in primitive.attributes)
     groups.push(glb.accessor(primitive.attributes[`_PRT_WEIGHTS_${groups.length}`]));
-  if (!("packing" in extension)) {
+  if (!("packing" in set)) {
     const clusters = glb.accessor(primitive.attributes._PRT_CLUSTER).flat();
     return clusters.map((k, p) => ({
       cluster: k,
-      weights: Array.from({ length: extension.components[k] }, (_, j) => groups[j >> 2][p][j & 3]),
+      weights: Array.from({ length: set.components[k] }, (_, j) => groups[j >> 2][p][j & 3]),
     }));
   }
-  const codeOf = packedCodes(glb, extension);
+  const codeOf = packedCodes(glb, set);
   return groups[0].map((_, p) => codeOf(groups.flatMap((group) => group[p])));
 }
 
@@ -229,12 +244,12 @@ function combined(rows, weights) {
 }
 
 function decodedVectors(glb, primitive) {
-  const extension = glb.json.extensions.PRTKIT_clustered_pca;
-  const rows = clusterRows(glb, extension);
-  const coordinates = predictorCoordinates(glb, extension, primitive);
-  const scales = (extension.predictors ?? []).flatMap(({ scale }) => scale);
-  const centers = extension.centers ? codedRows(glb, extension.centers, rows.length) : rows.map(() => []);
-  return vertexCodes(glb, extension, primitive).map(({ cluster, weights }, p) => {
+  const set = glb.set("vertices");
+  const rows = clusterRows(glb, set);
+  const coordinates = predictorCoordinates(glb, set, primitive);
+  const scales = (set.predictors ?? []).flatMap(({ scale }) => scale);
+  const centers = set.centers ? codedRows(glb, set.centers, rows.length) : rows.map(() => []);
+  return vertexCodes(glb, set, primitive).map(({ cluster, weights }, p) => {
     const predicted = scales.map((scale, i) => scale * coordinates[p][i] - centers[cluster][i]);
     return combined(rows[cluster], [...predicted, ...weights]);
   });
@@ -260,28 +275,28 @@ function vertices(baked, shipped) {
   return baked.primitives().flatMap((primitive, i) => {
     const weights = areas(baked, primitive);
     const decoded = decodedVectors(shipped, shipped.primitives()[i]);
-    const raw = rawVectors(baked, baked.json.extensions.PRTKIT_transfer, primitive.extensions.PRTKIT_transfer.vectors);
+    const raw = rawVectors(baked, baked.set("vertices"), primitive.extensions.PRTKIT_transfer.vectors);
     return raw.map((vector, p) => ({ area: weights[p], vector, decoded: decoded[p] }));
   });
 }
 
 /// Returns the decoded vectors of every texel that is a receiver. All texels are decoded.
 function texels(baked, shipped) {
-  const extension = shipped.json.extensions.PRTKIT_lightmap;
-  const rows = clusterRows(shipped, extension);
-  const decoded = texelBytes(shipped, extension)
-    .map(packedCodes(shipped, extension))
+  const set = shipped.set("texels");
+  const rows = clusterRows(shipped, set);
+  const decoded = texelBytes(shipped, set)
+    .map(packedCodes(shipped, set))
     .map(({ cluster, weights }) => combined(rows[cluster], weights));
-  const { raw, ...layout } = baked.json.extensions.PRTKIT_lightmap;
+  const raw = baked.set("texels");
   const numbers = baked.numbers(raw.texels);
   const sizes = baked.floats(raw.areas);
-  return rawVectors(baked, layout, raw.vectors).map((vector, p) => ({ area: sizes[p], vector, decoded: decoded[numbers[p]] }));
+  return rawVectors(baked, raw, raw.vectors).map((vector, p) => ({ area: sizes[p], vector, decoded: decoded[numbers[p]] }));
 }
 
 const baked = new Glb(process.argv[2]);
 const shipped = new Glb(process.argv[3]);
-const ofTexels = baked.json.extensions.PRTKIT_lightmap;
-const { order, terms } = ofTexels ?? baked.json.extensions.PRTKIT_transfer;
+const ofTexels = baked.set("texels");
+const { order, terms } = ofTexels ?? baked.set("vertices");
 const channels = Math.max(...terms.map((term) => term.channels));
 
 /// Returns E[ a·b ] of the light in band l on two terms under natural light: docs/math.md, section 4.

@@ -3,7 +3,8 @@
 // Prints the maximum difference, over vertices and colours, between the exit radiance of SHIPPED from the constants of its
 // shader and that of the vectors in BAKED, under a light of arbitrary coefficients, relative to the maximum radiance.
 import { readFileSync } from "node:fs";
-import { decodeClusters, updateConstants, lightColumns, shaderRows } from "../../examples/web/src/clusteredPca.js";
+import { clustersOf, updateConstants, lightColumns, shaderRows } from "../../examples/web/src/clusteredPca.js";
+import { setsOf } from "../../examples/web/src/wholeExtension.js";
 
 function open(path) {
   const file = readFileSync(path);
@@ -20,7 +21,7 @@ function open(path) {
 
 const baked = open(process.argv[2]);
 const shipped = open(process.argv[3]);
-const clusters = decodeClusters(shipped.json.extensions.PRTKIT_clustered_pca, shipped.view);
+const clusters = clustersOf(setsOf(shipped.json).vertices, shipped.view);
 const { order, terms, predictors, firstRows, components, widths, clusterBits } = clusters;
 const sky = Array.from({ length: 3 * order * order }, (_, i) => Math.cos(i + 1));
 const columns = lightColumns(clusters, sky);

@@ -10,6 +10,7 @@ import { halfFloat } from "../../examples/web/src/halfFloat.js";
 import { VolumeRelighter } from "../../examples/web/src/VolumeRelighter.js";
 import { atlasOf, indexTexels, visibilityTexels } from "../../examples/web/src/volumeTextures.js";
 import { volumeOf } from "../../examples/web/src/volumeTransfer.js";
+import { setsOf } from "../../examples/web/src/wholeExtension.js";
 
 const file = readFileSync(process.argv[2]);
 const length = file.readUInt32LE(12);
@@ -18,7 +19,7 @@ const view = (i) => {
   const { byteOffset = 0, byteLength } = json.bufferViews[i];
   return new Uint8Array(file.subarray(28 + length + byteOffset, 28 + length + byteOffset + byteLength));
 };
-const volume = volumeOf(json.extensions.PRTKIT_transfer_volume, view);
+const volume = volumeOf(setsOf(json).probes, view);
 const { grid, visibility, order, clusters } = volume;
 const atlas = atlasOf(grid, order);
 const sky = Array.from({ length: 3 * clusters.order ** 2 }, (_, i) => Math.cos(i + 1));

@@ -80,7 +80,10 @@ export class PrtkitModel extends LitTransfer {
    * vectors of four plus a separate word for the cluster.
    */
   readonly bytesPerVertex: number;
-  /** Number of texels of lightmaps with transfer, if vertices have none, and bytes per texel. */
+  /**
+   * Number of texels of lightmaps with transfer, and bytes per texel. A model with transfer of texels and of vertices
+   * shows that of texels; `vertices` is then 0.
+   */
   readonly texels: number;
   readonly bytesPerTexel: number;
   /** Light of moving objects, if the file has a volume. */
@@ -171,8 +174,11 @@ export class PrtkitVolume extends LitTransfer {
  */
 export const volumeShader: string;
 
-/** Reads PRTKIT_clustered_pca, PRTKIT_instances, PRTKIT_lightmap, PRTKIT_lobes and PRTKIT_transfer_volume, for WebGLRenderer; that of `prtkit-web/webgpu` for WebGPURenderer:
- * `loader.register((parser) => new PrtkitPlugin(parser))`. */
+/**
+ * Reads PRTKIT_transfer, PRTKIT_instances, PRTKIT_lobes and PRTKIT_occlusion_volume, for WebGLRenderer; that of
+ * `prtkit-web/webgpu` for WebGPURenderer: `loader.register((parser) => new PrtkitPlugin(parser))`. Loading fails for a
+ * file that is not compressed, and for a file of a former version.
+ */
 export class PrtkitPlugin implements GLTFLoaderPlugin {
   readonly name: string;
   constructor(parser: GLTFParser);

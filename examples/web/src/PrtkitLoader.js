@@ -21,7 +21,7 @@
 //
 // Models made with --meshopt need loader.setMeshoptDecoder(MeshoptDecoder), as all such files do.
 
-import { decodeVertices } from "./codedVertices.js";
+import { decodeVertices, removeWeights } from "./codedVertices.js";
 import { setFallbackAside } from "./fallback.js";
 import { putInstancesBack, takeInstancesAside } from "./instanceNodes.js";
 import { PrtkitInstances } from "./PrtkitInstances.js";
@@ -34,7 +34,7 @@ import { transferOfTexels } from "./texelTransfer.js";
 import { noteLightsOfFile } from "./unusedLights.js";
 import { transferOfVertices } from "./vertexTransfer.js";
 import { volumeOf } from "./volumeTransfer.js";
-import { checkLobes, checkVolume, expect, INSTANCES, LOBES, OCCLUDERS, PROBES, TEXELS, VERTICES, viewsOf } from "./wholeExtension.js";
+import { checkLobes, expect, INSTANCES, LOBES, OCCLUDERS, PROBES, setsOf, TEXELS, TRANSFER, VERTICES, viewsOf } from "./wholeExtension.js";
 
 export { halfFloatSky, projectEquirectangular } from "./equirectangular.js";
 export { lightOfSuns, readLightFile } from "./lightFile.js";
@@ -54,28 +54,39 @@ export { VOLUME as volumeShader } from "./transferShader.js";
 export class PrtkitPlugin {
   constructor(parser) {
     this.parser = parser;
-    this.name = VERTICES;
+    this.name = TRANSFER;
     this.canOcclude = true;
     this.canShare = true; // instances and lobes
     this.instances = []; // nodes whose meshes share transfer
+    this.checkedSets = null;
+  }
+
+  /** The sets of transfer of the file; see setsOf. */
+  get sets() {
+    return (this.checkedSets ??= setsOf(this.parser.json));
   }
 
   async beforeRoot() {
     const { json } = this.parser;
-    setFallbackAside(json);
-    await decodeVertices(this.parser, (list) => this.viewsOf(list, VERTICES));
-    const { [VERTICES]: vertices, [LOBES]: lobes } = json.extensions ?? {};
-    if (vertices) this.instances = takeInstancesAside(json);
+    const { vertices, texels } = this.sets;
+    const lobes = json.extensions?.[LOBES];
+    expect(!texels || !json.extensions[INSTANCES], "the file also has transfer of texels", INSTANCES);
+    if (vertices?.fallback) setFallbackAside(json);
+    if (vertices && texels) removeWeights(json);
+    else if (vertices) {
+      await decodeVertices(this.parser, vertices, (list) => this.viewsOf(list, VERTICES));
+      this.instances = takeInstancesAside(json);
+    }
     const isDrawn = (have, name) => expect(!have || this.canShare, "WebGPURenderer is not supported; use WebGLRenderer and prtkit-web", name);
     isDrawn(this.instances.length > 0, INSTANCES);
     isDrawn(lobes, LOBES);
   }
 
   async afterRoot(gltf) {
-    const { [VERTICES]: vertices, [TEXELS]: texels, [PROBES]: probes, [LOBES]: lobes } = this.parser.json.extensions ?? {};
-    expect(!vertices || !texels, "the file also has transfer of texels");
+    const { vertices, texels, probes } = this.sets;
+    const lobes = this.parser.json.extensions?.[LOBES];
     expect(!lobes || !(vertices || texels), "the file also has transfer that does not rotate with a skin", LOBES);
-    const name = [vertices && VERTICES, texels && TEXELS, probes && PROBES, lobes && LOBES].find(Boolean);
+    const name = vertices || texels || probes ? TRANSFER : lobes && LOBES;
     expect(!name || gltf.scene, "the file has no scene", name);
     const occluders = await occludersOf(this.parser, gltf, (list) => this.viewsOf(list, OCCLUDERS));
     if (occluders.length > 0) gltf.userData.prtkitOccluders = new PrtkitOccluders(occluders);
@@ -86,10 +97,11 @@ export class PrtkitPlugin {
     if (gltf.userData.prtkit) gltf.scenes.forEach(noteLightsOfFile);
   }
 
+  /** Returns the model of surfaces: of texels, if the file has texels and vertices. */
   async surfaces(vertices, texels, gltf) {
-    const { model, of, definesOf } = vertices
-      ? await transferOfVertices(vertices, (list) => this.viewsOf(list, VERTICES), gltf.scene)
-      : await transferOfTexels(texels, (list) => this.viewsOf(list, TEXELS), gltf.scene, this.parser, this.passOf);
+    const { model, of, definesOf } = texels
+      ? await transferOfTexels(texels, (list) => this.viewsOf(list, TEXELS), gltf.scene, this.parser, this.passOf)
+      : await transferOfVertices(vertices, (list) => this.viewsOf(list, VERTICES), gltf.scene);
     model.canOcclude = this.canOcclude;
     if (this.instances.length > 0) model.instances = await this.sharing(gltf, model, definesOf);
     this.convert(gltf, model, of);
@@ -117,10 +129,9 @@ export class PrtkitPlugin {
     return model;
   }
 
-  async volume(extension, root) {
-    checkVolume(extension);
-    const bytes = await this.viewsOf(viewsOf(extension), PROBES);
-    return new PrtkitVolume(volumeOf(extension, (i) => bytes.get(i)), root, this);
+  async volume(set, root) {
+    const bytes = await this.viewsOf(viewsOf(set), PROBES);
+    return new PrtkitVolume(volumeOf(set, (i) => bytes.get(i)), root, this);
   }
 
   /** Returns the bytes of buffer views; three reports missing ones. */

@@ -5,7 +5,7 @@ import { LitSurfaces } from "./LitSurfaces.js";
 import { clustersTextureOf, constantsTextureOf } from "./tables.js";
 
 export class PrtkitModel extends LitSurfaces {
-  /** `clusters`: see decodeClusters; `root`: the scene of the file, whose world rotation `setSky` uses. */
+  /** `clusters`: see clustersOf; `root`: the scene of the file, whose world rotation `setSky` uses. */
   constructor(clusters, root = null) {
     super(clusters, root);
     this.rows = shaderRows(this.clusters);

@@ -1,39 +1,18 @@
-// Decodes PRTKIT_clustered_pca, as defined in docs/format.md. Does not use three.js.
+// Decodes the clusters of a set of PRTKIT_transfer, as defined in docs/format.md. Does not use three.js.
 
 import { codedRows } from "./codedRows.js";
-import { checkExtension, expect, LARGEST_TRANSFER } from "./wholeExtension.js";
+import { expect, LARGEST_TRANSFER, nameOf } from "./wholeExtension.js";
 
-/** Reads bits of a byte array, lowest first. */
-class BitReader {
-  constructor(bytes) {
-    this.bytes = bytes;
-    this.position = 0;
-  }
-  read(width) {
-    expect(this.position + width <= 8 * this.bytes.length, "the bit stream ends too early");
-    let value = 0;
-    let taken = 0;
-    while (taken < width) {
-      const offset = this.position & 7;
-      const count = Math.min(8 - offset, width - taken);
-      value |= ((this.bytes[this.position >> 3] >> offset) & ((1 << count) - 1)) << taken;
-      taken += count;
-      this.position += count;
-    }
-    return value;
-  }
-}
-
-/** Returns `count` finite floats with absolute values up to `largest`. */
-function floats(bytes, count, largest, what) {
-  expect(bytes.byteLength === 4 * count, `${what} do not contain ${count} floats`);
+/** Returns `count` finite floats with absolute values up to `largest`. `name`: see expect. */
+function floats(bytes, count, largest, what, name) {
+  expect(bytes.byteLength === 4 * count, `${what} do not contain ${count} floats`, name);
   const values = new Float32Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength));
-  checkMagnitudes(values, largest, what);
+  checkMagnitudes(values, largest, what, name);
   return values;
 }
 
-function checkMagnitudes(values, largest, what) {
-  expect(values.every((value) => Math.abs(value) <= largest), `${what} are not finite or exceed ${largest}`);
+function checkMagnitudes(values, largest, what, name) {
+  expect(values.every((value) => Math.abs(value) <= largest), `${what} are not finite or exceed ${largest}`, name);
 }
 
 /** Number of light columns of a term: the coefficients of a sky, or the one strength of a lamp. */
@@ -44,24 +23,15 @@ const dimensionOf = ({ order, terms, outputs = 1 }) =>
   outputs * terms.reduce((sum, term) => sum + term.channels * columnsOf(order, term), 0);
 
 /**
- * Decodes the clusters of a file.
- * `extension`: the object at the top level of the glTF; `view(i)`: the bytes of buffer view i. Throws an
- * Error with the reason for a damaged file or a different version.
+ * Decodes the clusters of a set of setsOf; probes have several `outputs`. `view(i)`: the bytes of buffer view i. Throws
+ * an Error with the reason for a damaged file.
  */
-export function decodeClusters(extension, view) {
-  checkExtension(extension);
-  return clustersOf(extension, view);
-}
-
-/**
- * Decodes the clusters of a validated extension of vertices, of texels, or of probes, which have several
- * `outputs`.
- */
-export function clustersOf(extension, view, outputs = 1) {
-  const { order, terms, components, predictors = [], bases, packing } = extension;
+export function clustersOf(set, view, outputs = 1) {
+  const { receivers, order, terms, components, predictors = [], bases, packing } = set;
+  const name = nameOf(receivers);
   const predictorRows = 3 * predictors.length;
   let centers = new Int16Array(0);
-  if (predictorRows > 0) centers = codedRows(view(extension.centers.bufferView), extension.centers.drops, components.length);
+  if (predictorRows > 0) centers = codedRows(view(set.centers.bufferView), set.centers.drops, components.length, name);
   const dimension = dimensionOf({ order, terms, outputs });
   const firstRows = [];
   let rowCount = 0;
@@ -71,33 +41,37 @@ export function clustersOf(extension, view, outputs = 1) {
   }
   const clusters = { order, terms, outputs, components, predictors, centers, firstRows, rowCount };
   const rows = bases.values
-    ? decodedRows(clusters, bases, view)
-    : floats(view(bases.bufferView), rowCount * dimension, LARGEST_TRANSFER, "the bases");
-  const widths = packing ? packedWidths(extension, view) : null;
+    ? decodedRows(clusters, bases, view, name)
+    : floats(view(bases.bufferView), rowCount * dimension, LARGEST_TRANSFER, "the bases", name);
+  const widths = packing ? packedWidths(set, view) : null;
   return { ...clusters, rows, widths, clusterBits: packing ? packing.clusterBits : 0 };
 }
 
 /** Returns the widths, in bits, of the packed weights of each cluster. */
-export function packedWidths({ components, packing }, view) {
-  const bits = new BitReader(view(packing.bufferView));
-  return components.map((m) => Array.from({ length: m }, () => bits.read(4) + 1));
+export function packedWidths({ receivers, components, packing }, view) {
+  const bytes = view(packing.bufferView);
+  let at = 0;
+  const next = () => ((bytes[at >> 1] >> (4 * (at++ & 1))) & 15) + 1;
+  const widths = components.map((m) => Array.from({ length: m }, next));
+  expect(at <= 2 * bytes.length, "the widths of the packed weights end too early", nameOf(receivers));
+  return widths;
 }
 
 /**
  * Throws if rows of few bytes would need more memory than is allowed for this file size: 256 MB, plus 64
  * bytes per byte.
  */
-function checkRows(rows, axes, dimension, bytes) {
+function checkRows(rows, axes, dimension, bytes, name) {
   const values = rows * (axes + 3 * dimension) + axes * dimension;
-  expect(4 * values <= 256e6 + 64 * bytes, `the bases would need ${Math.round((4 * values) / 1e6)} MB`);
+  expect(4 * values <= 256e6 + 64 * bytes, `the bases would need ${Math.round((4 * values) / 1e6)} MB`, name);
 }
 
 /** Returns the step of each axis in each cluster, [clusters][axes]: one for all, or multiplied by powers of two. */
-function stepsOf({ step, steps }, clusterCount, axisCount, view) {
+function stepsOf({ step, steps }, clusterCount, axisCount, view, name) {
   const result = new Float64Array(clusterCount * axisCount).fill(steps ? steps.least : step);
   if (!steps) return result;
   const groupOf = steps.axes.flatMap((count, group) => new Array(count).fill(group));
-  const exponents = codedRows(view(steps.bufferView), steps.drops, clusterCount);
+  const exponents = codedRows(view(steps.bufferView), steps.drops, clusterCount, name);
   for (let k = 0; k < clusterCount; ++k)
     groupOf.forEach((group, i) => {
       result[k * axisCount + i] *= 2 ** exponents[k * steps.axes.length + group];
@@ -106,19 +80,19 @@ function stepsOf({ step, steps }, clusterCount, axisCount, view) {
 }
 
 /** Returns the rows of coded bases. */
-function decodedRows({ order, terms, outputs, components, predictors, firstRows, rowCount }, bases, view) {
+function decodedRows({ order, terms, outputs, components, predictors, firstRows, rowCount }, bases, view, name) {
   const dimension = dimensionOf({ order, terms, outputs });
   const axisCount = bases.values.drops.length;
-  expect(bases.axes.drops.length === dimension, "the sizes of the coded bases are inconsistent");
-  const numbers = (name, count, largest, what) => floats(view(bases[name].bufferView), count, largest, what);
-  const origin = numbers("origin", dimension, LARGEST_TRANSFER, "the values of the origin");
-  const scales = numbers("scales", axisCount, Number.MAX_VALUE, "the scales");
-  const units = bases.units ? numbers("units", dimension, Number.MAX_VALUE, "the units") : new Float32Array(dimension).fill(1);
+  expect(bases.axes.drops.length === dimension, "the sizes of the coded bases are inconsistent", name);
+  const numbers = ({ bufferView }, count, largest, what) => floats(view(bufferView), count, largest, what, name);
+  const origin = numbers(bases.origin, dimension, LARGEST_TRANSFER, "the values of the origin");
+  const scales = numbers(bases.scales, axisCount, Number.MAX_VALUE, "the scales");
+  const units = bases.units ? numbers(bases.units, dimension, Number.MAX_VALUE, "the units") : new Float32Array(dimension).fill(1);
   const codes = [bases.axes, bases.values].map(({ bufferView }) => view(bufferView));
-  checkRows(rowCount, axisCount, dimension, codes[0].length + codes[1].length);
-  const axes = codedRows(codes[0], bases.axes.drops, axisCount);
-  const values = codedRows(codes[1], bases.values.drops, rowCount);
-  const steps = stepsOf(bases, components.length, axisCount, view);
+  checkRows(rowCount, axisCount, dimension, codes[0].length + codes[1].length, name);
+  const axes = codedRows(codes[0], bases.axes.drops, axisCount, name);
+  const values = codedRows(codes[1], bases.values.drops, rowCount, name);
+  const steps = stepsOf(bases, components.length, axisCount, view, name);
   const rows = new Float32Array(rowCount * dimension);
   const row = new Float64Array(dimension);
   components.forEach((m, k) => {
@@ -135,7 +109,7 @@ function decodedRows({ order, terms, outputs, components, predictors, firstRows,
       rows.set(row, r * dimension);
     }
   });
-  checkMagnitudes(rows, LARGEST_TRANSFER, "the decoded bases");
+  checkMagnitudes(rows, LARGEST_TRANSFER, "the decoded bases", name);
   return rows;
 }
 

@@ -58,10 +58,10 @@ function numberOf(decoder, width, own) {
   return sign * ((top << (below - 1)) | decoder.plain(below - 1));
 }
 
-/** Returns the numbers [rows][drops.length]. */
-export function codedRows(bytes, drops, rows) {
+/** Returns the numbers [rows][drops.length]. `name`: see expect. */
+export function codedRows(bytes, drops, rows, name) {
   // Each row has at least four bits: a short file cannot contain many rows.
-  expect(drops.length === 0 || rows / 2 <= bytes.length, "the coded rows end too early");
+  expect(drops.length === 0 || rows / 2 <= bytes.length, "the coded rows end too early", name);
   const values = new Int16Array(rows * drops.length);
   if (drops.length === 0) return values;
   const decoder = new RangeDecoder(bytes);
@@ -70,7 +70,7 @@ export function codedRows(bytes, drops, rows) {
     const level = decoder.plain(4);
     for (let i = 0; i < drops.length; ++i)
       if (level > drops[i]) values[r * drops.length + i] = numberOf(decoder, level - drops[i], byWidth[level - drops[i]]);
-    expect(decoder.position <= bytes.length, "the coded rows end too early");
+    expect(decoder.position <= bytes.length, "the coded rows end too early", name);
   }
   return values;
 }

@@ -2,8 +2,9 @@
 
 import { packedWidths } from "./clusteredPca.js";
 import { codedWords, earlierNeighbors } from "./codedWords.js";
+import { primitivesOf } from "./fallback.js";
 import { wordsOf } from "./packedWords.js";
-import { checkExtension, expect, VERTICES } from "./wholeExtension.js";
+import { expect, TRANSFER } from "./wholeExtension.js";
 
 const STRIP = 5;
 const FAN = 6;
@@ -22,27 +23,24 @@ async function trianglesOf(parser, { indices, mode }, count) {
 /** Returns the primitives with coded words: { primitive, first, count }. */
 function codedPrimitives(json, vertices) {
   const coded = [];
-  for (const { primitives } of json.meshes ?? [])
-    for (const primitive of primitives) {
-      const first = primitive.extensions?.[VERTICES]?.firstVertex;
-      if (first === undefined) continue;
-      const count = json.accessors?.[primitive.attributes.POSITION]?.count;
-      expect(Number.isInteger(first) && first >= 0 && first + count <= vertices, `a primitive uses coded words beyond the ${vertices} of the file`);
-      coded.push({ primitive, first, count });
-    }
+  for (const primitive of primitivesOf(json)) {
+    const first = primitive.extensions?.[TRANSFER]?.firstVertex;
+    if (first === undefined) continue;
+    const count = json.accessors?.[primitive.attributes.POSITION]?.count;
+    expect(Number.isInteger(first) && first >= 0 && first + count <= vertices, `a primitive uses coded words beyond the ${vertices} of the file`);
+    coded.push({ primitive, first, count });
+  }
   return coded;
 }
 
-/** Replaces coded words in the JSON of `parser` by attributes. `views(list)`: the bytes of buffer views. */
-export async function decodeVertices(parser, views) {
+/** Replaces coded words of a set of vertices in the JSON of `parser` by attributes. `views(list)`: the bytes of buffer views. */
+export async function decodeVertices(parser, set, views) {
   const { json } = parser;
-  const extension = json.extensions?.[VERTICES];
-  const coded = extension?.packing?.words;
-  if (!coded) return;
-  checkExtension(extension);
-  const { vertices, bufferView, frequencies } = coded;
-  const bytes = await views([bufferView, extension.packing.bufferView]);
-  const clusters = { widths: packedWidths(extension, (i) => bytes.get(i)), clusterBits: extension.packing.clusterBits };
+  const { packing } = set;
+  if (!packing?.words) return;
+  const { vertices, bufferView, frequencies } = packing.words;
+  const bytes = await views([bufferView, packing.bufferView]);
+  const clusters = { widths: packedWidths(set, (i) => bytes.get(i)), clusterBits: packing.clusterBits };
   const words = wordsOf(clusters);
   const all = bytes.get(bufferView);
   expect(frequencies.byteLength <= all.length, "the frequencies of the coded words end too early");
@@ -64,7 +62,13 @@ export async function decodeVertices(parser, views) {
         json.accessors.push({ bufferView: json.bufferViews.length - 1, byteOffset: 4 * (first * words + w), componentType: 5121, count, type: "VEC4" });
     }
     for (let w = 0; w < words; ++w) primitive.attributes[`_PRT_WEIGHTS_${w}`] = accessors.get(key) + w;
-    delete primitive.extensions[VERTICES];
+    delete primitive.extensions[TRANSFER].firstVertex;
   }
-  delete extension.packing.words;
+  delete packing.words;
+}
+
+/** Removes the attributes of transfer of vertices, which are not shown, from the primitives of `json`. */
+export function removeWeights(json) {
+  for (const { attributes = {} } of primitivesOf(json))
+    for (const name of Object.keys(attributes)) if (/^_PRT_(CLUSTER|WEIGHTS_\d+)$/.test(name)) delete attributes[name];
 }

@@ -2,7 +2,7 @@
 
 import { codedRows } from "./codedRows.js";
 import { wordsOf } from "./packedWords.js";
-import { expect } from "./wholeExtension.js";
+import { expect, VERTICES } from "./wholeExtension.js";
 
 const FREQUENCY_BITS = 10;
 const TOTAL = 1 << FREQUENCY_BITS;
@@ -24,7 +24,7 @@ const ROWS = Array.from({ length: CONTEXTS }, (_, context) => rowsOf(context)).r
 /** Returns for each slot of each context the symbol, its frequency and the slot's offset in it: [contexts][TOTAL][3]. */
 function slotsOf(bytes, drops) {
   expect(drops.length === COLUMNS, `the frequencies of the coded words have ${drops.length} columns, not ${COLUMNS}`);
-  const frequencies = codedRows(bytes, drops, ROWS);
+  const frequencies = codedRows(bytes, drops, ROWS, VERTICES);
   const slots = new Uint16Array(3 * CONTEXTS * TOTAL);
   let row = 0;
   for (let context = 0; context < CONTEXTS; ++context) {

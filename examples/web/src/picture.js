@@ -26,7 +26,6 @@ import { HDRLoader } from "three/examples/jsm/loaders/HDRLoader.js";
 import { MeshoptDecoder } from "three/examples/jsm/libs/meshopt_decoder.module.js";
 import { Moving } from "./moving.js";
 import { halfFloatSky, lightOfSuns, PrtkitPlugin, projectInWorker, readLightFile, SunLights } from "./PrtkitLoader.js";
-import { AS_BAKED } from "./wholeExtension.js";
 import { skyImage } from "./skyImage.js";
 import { truncated, WINDOWS } from "./windows.js";
 import { ExposureMeter } from "./exposureMeter.js";
@@ -54,11 +53,7 @@ async function loadModel(url, progress) {
   const gltf = await loader.loadAsync(url, progress);
   if (gltf.userData.prtkit) return gltf;
   disposeOf(gltf);
-  throw new Error(
-    gltf.parser.json.extensions?.PRTKIT_transfer
-      ? `PRTKIT_transfer: ${AS_BAKED}`
-      : "the file has no transfer: run prt bake and prt compress, or prt make",
-  );
+  throw new Error("the file has no transfer: run prt bake and prt compress, or prt make");
 }
 
 function disposeOf(gltf) {

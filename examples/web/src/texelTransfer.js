@@ -1,11 +1,11 @@
-// Loads models with transfer of texels: PRTKIT_lightmap.
+// Loads models with transfer of texels.
 
 import { clustersOf } from "./clusteredPca.js";
 import { wordsOf } from "./packedWords.js";
 import { PrtkitModel } from "./PrtkitModel.js";
 import { TABLES } from "./tables.js";
 import { RelitMaps } from "./RelitMaps.js";
-import { checkLightmap, expect, inNameOf, TEXELS, viewsOf } from "./wholeExtension.js";
+import { expect, TEXELS, TRANSFER, viewsOf } from "./wholeExtension.js";
 import { wordTexture } from "./wordImages.js";
 
 const holds = (value, what) => expect(value, what, TEXELS);
@@ -23,14 +23,14 @@ function coordinatesOf({ geometry }, { texCoord }) {
  * Loads transfer of texels; see transferOfVertices. `passOf(model, defines, words)`: creates the pass that
  * draws the maps.
  */
-export async function transferOfTexels(extension, views, root, parser, passOf) {
-  checkLightmap(extension, parser.json.images?.length ?? 0);
-  const bytes = await views(viewsOf(extension));
-  const clusters = inNameOf(TEXELS, () => clustersOf(extension, (i) => bytes.get(i)));
+export async function transferOfTexels(set, views, root, parser, passOf) {
+  const bytes = await views(viewsOf(set));
+  const clusters = clustersOf(set, (i) => bytes.get(i));
   const words = wordsOf(clusters);
-  holds(words === extension.maps[0].images.length, `a texel has ${extension.maps[0].images.length} words, not ${words}`);
+  const { length } = set.maps[0].images;
+  holds(words === length, `a texel has ${length} words, not ${words}`);
   const maps = [];
-  for (const map of extension.maps) {
+  for (const map of set.maps) {
     const textures = await Promise.all(map.images.map((i) => wordTexture(parser, i, map)));
     maps.push({ width: map.width, height: map.height, repeats: map.repeats === true, words: textures });
   }
@@ -39,9 +39,9 @@ export async function transferOfTexels(extension, views, root, parser, passOf) {
   model.bytesPerTexel = 4 * words;
   model.maps = new RelitMaps(maps, passOf(model, { ...TABLES, PRT_CLUSTER_BITS: clusters.clusterBits }, words));
   const of = (mesh, primitive) => {
-    const placed = primitive?.extensions?.[TEXELS];
-    if (placed === undefined) return null;
-    holds(maps[placed?.map] !== undefined, "a primitive names a map that does not exist");
+    const placed = primitive?.extensions?.[TRANSFER];
+    if (placed?.map === undefined) return null;
+    holds(maps[placed.map] !== undefined, "a primitive names a map that does not exist");
     return { uniforms: {}, defines: { PRT_LIGHTMAP: 1 }, lightMap: model.maps.texture(placed.map, coordinatesOf(mesh, placed)) };
   };
   return { model, of };

@@ -1,21 +1,20 @@
-// Loads models with transfer of vertices: PRTKIT_clustered_pca.
+// Loads models with transfer of vertices.
 
 import { bakedFrame } from "./bakedFrame.js";
-import { decodeClusters } from "./clusteredPca.js";
+import { clustersOf } from "./clusteredPca.js";
 import { PrtkitModel } from "./PrtkitModel.js";
 import { TABLES } from "./tables.js";
 import { convertGeometry } from "./vertexWeights.js";
-import { checkExtension, viewsOf } from "./wholeExtension.js";
+import { viewsOf } from "./wholeExtension.js";
 
 /**
- * Loads a file with `extension`: { model, of, definesOf }. `of(mesh)`: the transfer of the mesh, null without
+ * Loads a file with this set of vertices: { model, of, definesOf }. `of(mesh)`: the transfer of the mesh, null without
  * one; `definesOf(geometry)`: defines of its attributes, after conversion to those of the shader, null
  * without transfer.
  */
-export async function transferOfVertices(extension, views, root) {
-  checkExtension(extension);
-  const bytes = await views(viewsOf(extension));
-  const model = new PrtkitModel(decodeClusters(extension, (i) => bytes.get(i)), root);
+export async function transferOfVertices(set, views, root) {
+  const bytes = await views(viewsOf(set));
+  const model = new PrtkitModel(clustersOf(set, (i) => bytes.get(i)), root);
   const defines = new Map(); // by geometry: nodes may share one
   const definesOf = (geometry) => {
     if (!defines.has(geometry)) {

@@ -1,4 +1,4 @@
-// Positions of the probes of a volume (docs/format.md, PRTKIT_transfer_volume). Does not use three.js.
+// Positions of the probes of a volume (docs/format.md, "Probes"). Does not use three.js.
 
 import { expect, PROBES } from "./wholeExtension.js";
 

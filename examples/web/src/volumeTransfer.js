@@ -1,9 +1,9 @@
-// Decodes transfer of probes: PRTKIT_transfer_volume. Does not use three.js.
+// Decodes transfer of probes. Does not use three.js.
 
 import { clustersOf } from "./clusteredPca.js";
 import { wordsOf } from "./packedWords.js";
 import { gridOf } from "./volumeGrid.js";
-import { checkVolume, expect, inNameOf, PROBES, viewsOf } from "./wholeExtension.js";
+import { expect, PROBES, viewsOf } from "./wholeExtension.js";
 
 const holds = (value, what) => expect(value, what, PROBES);
 
@@ -17,22 +17,21 @@ function checkWords(words, stride, { clusterBits, components }) {
 }
 
 /**
- * Decodes the volume of a file with `extension`: { grid, order, clusters, visibility, words, stride }, with
+ * Decodes the volume of a set of probes of setsOf: { grid, order, clusters, visibility, words, stride }, with
  * `order` that of incident light, `words` [probes][stride]. `view(i)`: the bytes of buffer view i. Throws an
  * Error with the reason for a damaged file.
  */
-export function volumeOf(extension, view) {
-  checkVolume(extension);
-  const bytes = viewsOf(extension).reduce((sum, i) => sum + view(i).byteLength, 0);
-  const grid = gridOf(extension, view(extension.bricks.bufferView), bytes);
+export function volumeOf(set, view) {
+  const bytes = viewsOf(set).reduce((sum, i) => sum + view(i).byteLength, 0);
+  const grid = gridOf(set, view(set.bricks.bufferView), bytes);
   const probes = grid.levels.length;
-  const visibility = view(extension.visibility.bufferView);
+  const visibility = view(set.visibility.bufferView);
   holds(visibility.byteLength === 6 * probes, `visibility has values for ${visibility.byteLength / 6} probes, not ${probes}`);
-  const order = extension.incidentOrder;
-  const clusters = inNameOf(PROBES, () => clustersOf(extension, view, order * order));
+  const order = set.incidentOrder;
+  const clusters = clustersOf(set, view, order * order);
   const stride = wordsOf(clusters);
   holds(stride <= 8, `a probe has ${stride} words of packed weights, more than 8`);
-  const packed = view(extension.words.bufferView);
+  const packed = view(set.words.bufferView);
   holds(packed.byteLength === 4 * stride * probes, `the words do not have the size of ${probes} probes`);
   const words = viewed(Uint32Array, packed);
   checkWords(words, stride, clusters);

@@ -1,29 +1,18 @@
-// Validates the JSON of PRTKIT_clustered_pca, PRTKIT_lightmap, PRTKIT_transfer_volume and others before it is
-// used (docs/format.md).
+// Validates the JSON of PRTKIT_transfer and the other extensions before it is used (docs/format.md).
 
 import { FACTORS } from "./instanceModes.js";
 
-export const VERTICES = "PRTKIT_clustered_pca";
-export const TEXELS = "PRTKIT_lightmap";
-export const PROBES = "PRTKIT_transfer_volume";
+export const TRANSFER = "PRTKIT_transfer";
 export const OCCLUDERS = "PRTKIT_occlusion_volume";
 export const INSTANCES = "PRTKIT_instances";
 export const LOBES = "PRTKIT_lobes";
-/** Error message for a file that is not compressed. */
-export const AS_BAKED = "the file is an uncompressed bake; compress it: prt compress baked.glb -o shipped.glb";
+/** Name of the set of these receivers in messages. */
+export const nameOf = (receivers) => `${TRANSFER}: ${receivers}`;
+export const [VERTICES, TEXELS, PROBES] = ["vertices", "texels", "probes"].map(nameOf);
 
-/** Throws an Error with `what` unless `holds`. `name`: the extension with the error. */
+/** Throws an Error with `what` unless `holds`. `name`: the extension with the error, or the set of PRTKIT_transfer. */
 export function expect(holds, what, name = VERTICES) {
   if (!holds) throw new Error(`${name}: ${what}`);
-}
-
-/** Returns the result of `work`; its errors about clusters get the name of extension `name`. */
-export function inNameOf(name, work) {
-  try {
-    return work();
-  } catch (error) {
-    throw new Error(error.message.replace(VERTICES, name), { cause: error });
-  }
 }
 
 /** Limit for scales of predictors, for float weights, and for the distance of a vertex from the world origin in metres. */
@@ -73,64 +62,59 @@ function arePredictors(predictors) {
   );
 }
 
-/** True if there is one step for all axes, or one per group of axes in each cluster. */
-function checkSteps({ step, steps, values }) {
+/** Throws unless there is one step for all axes, or one for each group of axes in each cluster. */
+function checkSteps({ step, steps, values }, holds) {
   const least = steps === undefined ? step : steps?.least;
-  expect(Number.isFinite(least) && least >= 0, "the step of the bases is not a number of at least 0");
+  holds(Number.isFinite(least) && least >= 0, "the step of the bases is not a number of at least 0");
   if (steps === undefined) return;
-  expect(step === undefined, "the bases have both step and steps");
+  holds(step === undefined, "the bases have both step and steps");
   const axes = Array.isArray(steps.axes) ? steps.axes : [];
   const total = axes.reduce((sum, count) => (isWhole(count, 0, 65536) ? sum + count : NaN), 0);
-  expect(
+  holds(
     areRows(steps) && steps.drops.length === axes.length && total === values.drops.length,
     "the steps of the bases do not match their axes",
   );
 }
 
-function checkBases(bases) {
-  expect(isObject(bases), "bases are missing");
-  if (bases.values === undefined) return expect(areFloats(bases), "the bases are not floats");
-  expect(areRows(bases.values) && areRows(bases.axes), "the rows of the coded bases are invalid");
-  expect(
+function checkBases(bases, holds) {
+  holds(isObject(bases), "bases are missing");
+  if (bases.values === undefined) return holds(areFloats(bases), "the bases are not floats");
+  holds(areRows(bases.values) && areRows(bases.axes), "the rows of the coded bases are invalid");
+  holds(
     areFloats(bases.origin) && areFloats(bases.scales) && (bases.units === undefined || areFloats(bases.units)),
     "origin, scales or units of the coded bases are not floats",
   );
-  checkSteps(bases);
+  checkSteps(bases, holds);
 }
 
-function checkPacking({ packing, components }) {
+function checkPacking({ packing, components }, holds) {
   if (packing === undefined) return;
-  expect(isView(packing) && isWhole(packing.clusterBits, 0, 16), "packing is invalid");
-  expect(components.length <= 2 ** packing.clusterBits, "clusterBits cannot number all clusters");
-  expect(components.every((m) => m <= 16), "a cluster has more than 16 packed components");
+  holds(isView(packing) && isWhole(packing.clusterBits, 0, 16), "packing is invalid");
+  holds(components.length <= 2 ** packing.clusterBits, "clusterBits cannot number all clusters");
+  holds(components.every((m) => m <= 16), "a cluster has more than 16 packed components");
   const { words } = packing;
   if (words === undefined) return;
   const { frequencies } = words;
-  expect(isView(words) && isWhole(words.vertices, 1, 2 ** 31 - 1), "the coded words are invalid");
-  expect(isWhole(frequencies?.byteLength, 0, 2 ** 31 - 1) && areDrops(frequencies.drops), "the frequencies of the coded words are invalid");
+  holds(isView(words) && isWhole(words.vertices, 1, 2 ** 31 - 1), "the coded words are invalid");
+  holds(isWhole(frequencies?.byteLength, 0, 2 ** 31 - 1) && areDrops(frequencies.drops), "the frequencies of the coded words are invalid");
 }
 
-/** Throws an Error with the reason for an invalid object at the top level of a glTF. */
-export function checkExtension(extension) {
-  expect(isObject(extension), "the extension is not an object");
-  const { version } = extension;
-  expect(version === 8, `version ${version} is not supported, only 8; compress the model again`);
-  checkClusters(extension);
-}
-
-/** Validates the common members of vertices and texels. */
-function checkClusters(extension) {
-  const { order, terms, components, predictors, centers } = extension;
-  expect(isWhole(order, 1, 10) && areTerms(terms), "order or terms are invalid");
-  expect(terms.every(({ towards }) => towards === undefined), 'a lamp term has "towards", because older versions stored suns as lamps; bake the scene again');
-  expect(Array.isArray(components) && isWhole(components.length, 1, 65536), "components is not a list of 1 to 65536 numbers");
-  expect(components.every((m) => isWhole(m, 0, 600)), "a cluster does not have 0 to 600 components");
+function checkClusters({ components, predictors, centers, bases, packing }, holds) {
+  holds(Array.isArray(components) && isWhole(components.length, 1, 65536), "components is not a list of 1 to 65536 numbers");
+  holds(components.every((m) => isWhole(m, 0, 600)), "a cluster does not have 0 to 600 components");
   if (predictors !== undefined) {
-    expect(arePredictors(predictors) && predictors.length > 0, "the predictors are invalid");
-    expect(areRows(centers) && centers.drops.length === 3 * predictors.length, "the centers do not match the predictors");
+    holds(arePredictors(predictors) && predictors.length > 0, "the predictors are invalid");
+    holds(areRows(centers) && centers.drops.length === 3 * predictors.length, "the centers do not match the predictors");
   }
-  checkBases(extension.bases);
-  checkPacking(extension);
+  checkBases(bases, holds);
+  checkPacking({ packing, components }, holds);
+}
+
+/** Throws unless weights are packed, in words as they are, without predictors. */
+function checkWords({ predictors, packing }, holds) {
+  holds(predictors === undefined, "predictors are only for vertices");
+  holds(packing !== undefined, "the weights are not packed");
+  holds(packing.words === undefined, "coded words are only for vertices");
 }
 
 const LARGEST_MAP = 16384; // texels along a side: maximum size of textures
@@ -142,16 +126,9 @@ const isMap = (map) =>
   ["boolean", "undefined"].includes(typeof map.repeats) &&
   Array.isArray(map.images);
 
-/** Validates PRTKIT_lightmap in a glTF with `images` images; see checkExtension. */
-export function checkLightmap(extension, images) {
-  const holds = (value, what) => expect(value, what, TEXELS);
-  holds(isObject(extension), "the extension is not an object");
-  const { version, raw, predictors, packing, maps } = extension;
-  holds(version === 2, `version ${version} is not supported, only 2; compress the model again`);
-  holds(raw === undefined, AS_BAKED);
-  inNameOf(TEXELS, () => checkClusters(extension));
-  holds(predictors === undefined, "texels do not support predictors");
-  holds(packing !== undefined, "the weights of texels are not packed");
+function checkTexels(set, holds, images) {
+  checkWords(set, holds);
+  const { maps } = set;
   holds(Array.isArray(maps) && maps.length > 0 && maps.every(isMap), "the maps are invalid");
   holds(isWhole(maps[0].images.length, 1, 8), "a texel does not have 1 to 8 words");
   for (const map of maps)
@@ -163,20 +140,50 @@ export function checkLightmap(extension, images) {
 
 const areNumbers = (v) => Array.isArray(v) && v.length === 3 && v.every((x) => Number.isFinite(x) && Math.abs(x) < 1e30);
 
-/** Validates PRTKIT_transfer_volume; see checkExtension. */
-export function checkVolume(extension) {
-  const holds = (value, what) => expect(value, what, PROBES);
-  holds(isObject(extension), "the extension is not an object");
-  const { version, raw, predictors, packing, incidentOrder, origin, spacing, size, bricks, visibility, words } = extension;
-  holds(version === 2, `version ${version} is not supported, only 2; compress the model again`);
-  holds(raw === undefined, AS_BAKED);
+function checkProbes(set, holds) {
+  checkWords(set, holds);
+  const { incidentOrder, origin, spacing, size, bricks, visibility, words } = set;
   holds(isWhole(incidentOrder, 2, 4), "the order of incident light is not 2 to 4");
   holds(areNumbers(origin) && spacing > 0 && spacing < 1e18, "the spacing or the origin is invalid");
   holds(Array.isArray(size) && size.length === 3 && size.every((n) => isWhole(n, 1, 1024)), "the size is not 1 to 1024 bricks along each axis");
-  inNameOf(PROBES, () => checkClusters(extension));
-  holds(predictors === undefined, "probes do not support predictors");
-  holds(packing !== undefined, "the weights of probes are not packed");
   holds([bricks, visibility, words].every(isView), "bricks, visibility or words are missing");
+}
+
+const CHECKS = new Map([["vertices", () => {}], ["texels", checkTexels], ["probes", checkProbes]]);
+
+function checkSet(set, images) {
+  const { receivers, coding, order, terms } = set;
+  const holds = (value, what) => expect(value, what, nameOf(receivers));
+  holds(coding !== "raw", "the file is an uncompressed bake; compress it: prt compress baked.glb -o shipped.glb");
+  holds(coding === "clustered", "the coding is neither raw nor clustered");
+  holds(isWhole(order, 1, 10) && areTerms(terms), "order or terms are invalid");
+  holds(terms.every(({ towards }) => towards === undefined), 'a lamp term has "towards", because older versions stored suns as lamps; bake the scene again');
+  checkClusters(set, holds);
+  CHECKS.get(receivers)(set, holds, images);
+}
+
+const VERSION = 6;
+const FORMER = ["PRTKIT_clustered_pca", "PRTKIT_lightmap", "PRTKIT_transfer_volume"];
+
+/** Returns the sets of PRTKIT_transfer in a glTF by their receivers: { vertices, texels, probes }, those that exist. */
+export function setsOf({ extensions, images }) {
+  const holds = (value, what) => expect(value, what, TRANSFER);
+  const again = "write the file again with this version of prt";
+  for (const name of FORMER) holds(extensions?.[name] === undefined, `the file has ${name}, a format of a former version; ${again}`);
+  const extension = extensions?.[TRANSFER];
+  if (extension === undefined) return {};
+  holds(isObject(extension), "the extension is not an object");
+  const { version, sets } = extension;
+  holds(version === VERSION, `the file has ${TRANSFER} of version ${JSON.stringify(version)}, but this program reads version ${VERSION}; ${again}`);
+  holds(Array.isArray(sets) && sets.length > 0, "sets is not a list of at least one set");
+  const found = {};
+  for (const set of sets) {
+    holds(CHECKS.has(set?.receivers), "the receivers of a set are not vertices, texels or probes");
+    holds(!found[set.receivers], `there is more than one set of ${set.receivers}`);
+    checkSet(set, images?.length ?? 0);
+    found[set.receivers] = set;
+  }
+  return found;
 }
 
 /** Validates PRTKIT_occlusion_volume of a node. */
@@ -193,7 +200,7 @@ export function checkOccluder(extension) {
 const MOST_INSTANCES = 1_000_000;
 const LARGEST_SCALE = 500; // scale of a byte of factors
 
-/** Validates PRTKIT_instances at the top level; see checkExtension. */
+/** Validates PRTKIT_instances at the top level. */
 export function checkInstances(extension) {
   const holds = (value, what) => expect(value, what, INSTANCES);
   holds(isObject(extension), "the extension is not an object");
@@ -215,7 +222,7 @@ export function checkInstanceNode(extension, n, count, boxes) {
   expect(isRight, `node ${n} names an instance or a box that does not exist`, INSTANCES);
 }
 
-/** Validates PRTKIT_lobes; see checkExtension. */
+/** Validates PRTKIT_lobes. */
 export function checkLobes(extension) {
   const holds = (value, what) => expect(value, what, LOBES);
   holds(isObject(extension), "the extension is not an object");
@@ -225,7 +232,7 @@ export function checkLobes(extension) {
   holds(areFloats(profiles) && isWhole(profiles.count, 1, 256), "the profiles are not 1 to 256 profiles of floats");
 }
 
-/** Returns the buffer views of a validated extension. */
+/** Returns the buffer views of a set of transfer. */
 export function viewsOf({ packing, centers, predictors, bases, bricks, visibility, words }) {
   const { origin, units, scales, steps, axes, values } = bases;
   const coded = values ? [origin, units, scales, steps, axes, values] : [bases];

@@ -19,6 +19,7 @@ import {
   ShaderLib,
 } from "three";
 import { halfFloatSky, PrtkitPlugin, projectEquirectangular } from "../src/PrtkitLoader.js";
+import { transferOf } from "./transferSets.js";
 
 const white = () => projectEquirectangular(new DataTexture(new Float32Array([1, 1, 1, 1]), 1, 1, RGBAFormat, FloatType));
 
@@ -34,7 +35,7 @@ function scene(attributes, extension, material = {}) {
   const group = new Group().add(mesh);
   const parser = {
     json: {
-      extensions: extension ? { PRTKIT_clustered_pca: extension } : {},
+      extensions: extension ? transferOf(extension) : {},
       meshes: [{ primitives: [{ material: 0 }] }],
       materials: [material],
     },
@@ -45,7 +46,8 @@ function scene(attributes, extension, material = {}) {
 }
 
 const packed = {
-  version: 8,
+  receivers: "vertices",
+  coding: "clustered",
   order: 1,
   terms: [{ kind: "combined", channels: 1 }],
   components: [1],
@@ -298,7 +300,8 @@ test("directional lights light models with a direct term while suns are separate
 });
 
 const WITH_LAMPS = {
-  version: 8,
+  receivers: "vertices",
+  coding: "clustered",
   order: 1,
   terms: [{ kind: "direct", channels: 1 }, { kind: "lamp", channels: 1, name: "Lantern" }, { kind: "lamp", channels: 3, name: "Sign" }],
   components: [0],

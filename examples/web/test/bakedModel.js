@@ -3,6 +3,7 @@
 import { PlaneGeometry, SphereGeometry } from "three";
 import { encodedRows } from "./encodedRows.js";
 import { Binary, png } from "./glb.js";
+import { transferOf } from "./transferSets.js";
 
 export const PARTS = [
   { kind: "direct", channels: 1 },
@@ -53,6 +54,7 @@ function packedWidths() {
 }
 
 const clusters = (binary, predictors) => ({
+  coding: "clustered",
   order: ORDER,
   terms: PARTS,
   components: COMPONENTS,
@@ -128,21 +130,40 @@ function weightAttributes(binary, words) {
   };
 }
 
-const MAPPED = "texels";
 /** Predictors of vertices, for each way to store weights. */
 const PREDICTORS = {
   vertices: [{ kind: "normal", scale: [1, 1, 1] }],
   weights: [{ kind: "normal", scale: [1, 1, 1] }, { kind: "position", origin: [0.1, 0.2, -0.1], scale: [0.3, 0.3, 0.3] }],
 };
 
+/** Returns the set of vertices; `by`: see bakedModel. */
+export function vertexSet(binary, by) {
+  const predictors = PREDICTORS[by] ?? PREDICTORS.vertices;
+  const rows = 3 * predictors.length;
+  const { packing, ...rest } = clusters(binary, rows);
+  const set = { receivers: "vertices", ...rest, ...(by === "weights" ? {} : { packing }) };
+  const none = new Array(rows).fill(0);
+  return { ...set, predictors, centers: { bufferView: binary.view(encodedRows(none, COMPONENTS.map(() => [0, none]))), drops: none } };
+}
+
+/** Returns the set of texels, and adds its images. */
+export function texelSet(json, binary) {
+  const maps = MAPS.map((map, i) => {
+    const first = json.images.length;
+    json.images.push(...images(binary, map.width, map.height, (x, y) => texelWords(i, x, y)));
+    return { ...map, images: [first, first + 1] };
+  });
+  return { receivers: "texels", ...clusters(binary, 0), maps };
+}
+
 /**
- * Returns the file. `by` is "vertices", "weights" (of vertices, not packed) or "texels"; `change(json,
- * binary)` may modify it.
+ * Returns the file. `by` is "vertices", "weights" (of vertices, not packed), "texels", or "both": texels and vertices;
+ * `change(json, binary)` may modify it.
  */
 export function bakedModel(by, change = () => {}) {
   const binary = new Binary();
   const shapes = [new PlaneGeometry(4, 4, 24, 24).rotateX(-Math.PI / 2), new SphereGeometry(0.7, 40, 24).translate(-0.5, 1, 0), new SphereGeometry(0.35, 24, 16).translate(0.9, 0.5, 0.6)];
-  const isMapped = by === MAPPED;
+  const isMapped = by === "texels" || by === "both";
   const json = { extensionsUsed: ["KHR_materials_clearcoat", "KHR_materials_unlit"], scene: 0, scenes: [{ nodes: [0, 1, 2] }], nodes: [{ mesh: 0 }, { mesh: 1 }, { mesh: 2 }], materials: MATERIALS };
   json.images = [{ bufferView: binary.view(normalMap()), mimeType: "image/png" }];
   json.textures = [{ source: 0 }];
@@ -156,8 +177,9 @@ export function bakedModel(by, change = () => {}) {
     const primitive = { attributes, indices: binary.accessor(new Uint32Array(index.array), "SCALAR"), material: i };
     if (isMapped) {
       attributes.TEXCOORD_1 = binary.accessor(new Float32Array(uv.array), "VEC2");
-      primitive.extensions = { PRTKIT_lightmap: { map: i % 2, texCoord: i === 2 ? 0 : 1 } };
-    } else {
+      primitive.extensions = { PRTKIT_transfer: { map: i % 2, texCoord: i === 2 ? 0 : 1 } };
+    }
+    if (by !== "texels") {
       const words = Array.from({ length: position.count }, (_, v) => wordsAt(uv.getX(v), uv.getY(v), i));
       if (by === "weights") Object.assign(attributes, weightAttributes(binary, words));
       else
@@ -166,21 +188,10 @@ export function bakedModel(by, change = () => {}) {
     }
     return { primitives: [primitive] };
   });
-  if (isMapped) {
-    const maps = MAPS.map((map, i) => {
-      const first = json.images.length;
-      json.images.push(...images(binary, map.width, map.height, (x, y) => texelWords(i, x, y)));
-      return { ...map, images: [first, first + 1] };
-    });
-    json.extensions = { PRTKIT_lightmap: { version: 2, ...clusters(binary, 0), maps } };
-  } else {
-    const predictors = PREDICTORS[by];
-    const rows = 3 * predictors.length;
-    const none = new Array(rows).fill(0);
-    const centers = { bufferView: binary.view(encodedRows(none, COMPONENTS.map(() => [0, none]))), drops: none };
-    const { packing, ...rest } = clusters(binary, rows);
-    json.extensions = { PRTKIT_clustered_pca: { version: 8, ...rest, ...(by === "weights" ? {} : { packing }), predictors, centers } };
-  }
+  const sets = [];
+  if (by !== "texels") sets.push(vertexSet(binary, by));
+  if (isMapped) sets.push(texelSet(json, binary));
+  json.extensions = transferOf(...sets);
   change(json, binary);
   return binary.file(json);
 }

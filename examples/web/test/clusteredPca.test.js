@@ -2,10 +2,11 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { clusterTable, decodeClusters, updateConstants, lightColumns, shaderRows } from "../src/clusteredPca.js";
+import { clusterTable, updateConstants, lightColumns, shaderRows } from "../src/clusteredPca.js";
 import { codedRows } from "../src/codedRows.js";
 import { viewsOf } from "../src/wholeExtension.js";
 import { encodedRows } from "./encodedRows.js";
+import { decodedSet } from "./transferSets.js";
 
 /** Packs numbers of given widths into bytes, lowest bit first. */
 function bits(values) {
@@ -25,7 +26,8 @@ const bytesOf = (...values) => new Uint8Array(new Float32Array(values).buffer);
  * Widths 3 and 5.
  */
 const plain = {
-  version: 8,
+  receivers: "vertices",
+  coding: "clustered",
   order: 1,
   terms: [{ kind: "combined", channels: 1 }],
   components: [2, 0],
@@ -35,7 +37,7 @@ const plain = {
 const plainViews = [bytesOf(2, 0.5, 0.25, 3), bits([[2, 4], [4, 4]])];
 
 test("plain bases are read unchanged", () => {
-  const clusters = decodeClusters(plain, (i) => plainViews[i]);
+  const clusters = decodedSet(plain, (i) => plainViews[i]);
   assert.deepEqual([...clusters.rows], [2, 0.5, 0.25, 3]);
   assert.deepEqual(clusters.firstRows, [0, 3]);
   assert.deepEqual(clusters.widths, [[3, 5], []]);
@@ -43,7 +45,7 @@ test("plain bases are read unchanged", () => {
 });
 
 test("shader rows times integers equal rows times weights", () => {
-  const clusters = decodeClusters(plain, (i) => plainViews[i]);
+  const clusters = decodedSet(plain, (i) => plainViews[i]);
   const constants = updateConstants(clusters, shaderRows(clusters), [10, 20, 30], new Float32Array(16));
   for (const [q0, q1] of [[0, 0], [7, 31], [3, 17]]) {
     const w0 = (2 * q0 - 7) / 7;
@@ -59,7 +61,8 @@ test("shader rows times integers equal rows times weights", () => {
 test("coded bases are sums over axes", () => {
   // One axis (3, -1) of three channels and order 1 would be dimension 3; here dimension 3, two axes.
   const extension = {
-    version: 8,
+    receivers: "vertices",
+    coding: "clustered",
     order: 1,
     terms: [{ kind: "direct", channels: 3 }],
     components: [1],
@@ -78,7 +81,7 @@ test("coded bases are sums over axes", () => {
     // The mean and the direction; the second axis has no residual.
     encodedRows([0, 2], [[5, [-16, 3]], [2, [1, 0]]]),
   ];
-  const { rows } = decodeClusters(extension, (i) => views[i]);
+  const { rows } = decodedSet(extension, (i) => views[i]);
   const axes = [[3, -1, 2], [-4, 0, -1]];
   for (let a = 0; a < 3; ++a) {
     assert.equal(rows[a], [1, 2, 3][a] + 0.5 * (2 * -16 * axes[0][a] + 4 * 3 * axes[1][a]));
@@ -86,12 +89,12 @@ test("coded bases are sums over axes", () => {
   }
   // With units, the contribution of the axes is multiplied by them, and the start value of the mean is not.
   const scaled = { ...extension, bases: { ...extension.bases, units: { bufferView: 4, componentType: 5126 } } };
-  const wide = decodeClusters(scaled, (i) => [...views, bytesOf(1, 0.5, 4)][i]).rows;
+  const wide = decodedSet(scaled, (i) => [...views, bytesOf(1, 0.5, 4)][i]).rows;
   for (let a = 0; a < 3; ++a) {
     assert.equal(wide[a] - [1, 2, 3][a], [1, 0.5, 4][a] * (rows[a] - [1, 2, 3][a]));
     assert.equal(wide[3 + a], [1, 0.5, 4][a] * rows[3 + a]);
   }
-  assert.throws(() => decodeClusters(scaled, (i) => [...views, bytesOf(1)][i]), /the units do not contain \d+ floats/);
+  assert.throws(() => decodedSet(scaled, (i) => [...views, bytesOf(1)][i]), /the units do not contain \d+ floats/);
 });
 
 /**
@@ -99,7 +102,8 @@ test("coded bases are sums over axes", () => {
  * rows.
  */
 const predicted = {
-  version: 8,
+  receivers: "vertices",
+  coding: "clustered",
   order: 1,
   terms: [{ kind: "combined", channels: 1 }],
   components: [1, 0],
@@ -128,7 +132,7 @@ test("coded rows are decoded for all sizes", () => {
 });
 
 test("predictors have rows after the mean, and centers", () => {
-  const clusters = decodeClusters(predicted, (i) => predictedViews[i]);
+  const clusters = decodedSet(predicted, (i) => predictedViews[i]);
   assert.deepEqual([...clusters.rows], predictedRows);
   assert.deepEqual(clusters.firstRows, [0, 8]);
   assert.deepEqual([...clusters.centers], [-1, 2, 0, 1, 3, -4, 0, 0, 0, 0, 0, 0]);
@@ -136,7 +140,7 @@ test("predictors have rows after the mean, and centers", () => {
 });
 
 test("shader rows times coordinates equal rows times scaled coordinates minus the center", () => {
-  const clusters = decodeClusters(predicted, (i) => predictedViews[i]);
+  const clusters = decodedSet(predicted, (i) => predictedViews[i]);
   const constants = updateConstants(clusters, shaderRows(clusters), [1, 2, 3], new Float32Array(4 * 15));
   const x = [0, 0.6, 0.8, 1, -2, 0.5];
   const scales = [2, 4, 8, 1, 0.5, 0.25];
@@ -157,7 +161,8 @@ test("shader rows times coordinates equal rows times scaled coordinates minus th
 
 test("steps of coded bases are powers of two in each cluster and group of axes", () => {
   const extension = {
-    version: 8,
+    receivers: "vertices",
+    coding: "clustered",
     order: 1,
     terms: [{ kind: "direct", channels: 3 }],
     components: [0, 0],
@@ -177,15 +182,15 @@ test("steps of coded bases are powers of two in each cluster and group of axes",
     encodedRows([0, 0, 0], [[5, [5, 6, 7]], [5, [9, 10, 11]]]),
   ];
   assert.deepEqual(viewsOf(extension).sort(), [0, 1, 2, 3, 4]);
-  const { rows } = decodeClusters(extension, (i) => views[i]);
+  const { rows } = decodedSet(extension, (i) => views[i]);
   assert.deepEqual([...rows], [102.5, 248, 412, 244, 205, 311]);
   for (const axes of [[1, 1], [3], [1, -1, 3], "12", [1, 65537]])
     assert.throws(
-      () => decodeClusters({ ...extension, bases: { ...extension.bases, steps: { ...extension.bases.steps, axes } } }, (i) => views[i]),
+      () => decodedSet({ ...extension, bases: { ...extension.bases, steps: { ...extension.bases.steps, axes } } }, (i) => views[i]),
       /steps of the bases/,
     );
   assert.throws(
-    () => decodeClusters({ ...extension, bases: { ...extension.bases, steps: { ...extension.bases.steps, least: -1 } } }, (i) => views[i]),
+    () => decodedSet({ ...extension, bases: { ...extension.bases, steps: { ...extension.bases.steps, least: -1 } } }, (i) => views[i]),
     /step of the bases/,
   );
 });
@@ -213,7 +218,7 @@ test("rows of predictors have the step of means in coded bases", () => {
     encodedRows([0, 0, 0], [[0, [0, 0, 0]]]),
     bits([[1, 4]]),
   ];
-  assert.deepEqual([...decodeClusters(extension, (i) => views[i]).rows], [105, 6, 7, 8, 18]);
+  assert.deepEqual([...decodedSet(extension, (i) => views[i]).rows], [105, 6, 7, 8, 18]);
 });
 
 test("invalid predictors are rejected", () => {
@@ -224,9 +229,9 @@ test("invalid predictors are rejected", () => {
     [{ kind: "position", scale: [1, 1, 1] }], [{ ...position, origin: [1, 2, "3"] }],
   ];
   for (const predictors of wrong)
-    assert.throws(() => decodeClusters({ ...predicted, predictors }, (i) => predictedViews[i]), /predictors/);
-  assert.throws(() => decodeClusters({ ...predicted, predictors: [normal] }, (i) => predictedViews[i]), /centers/);
-  assert.throws(() => decodeClusters(predicted, (i) => (i === 2 ? new Uint8Array(0) : predictedViews[i])), /end too early/);
+    assert.throws(() => decodedSet({ ...predicted, predictors }, (i) => predictedViews[i]), /predictors/);
+  assert.throws(() => decodedSet({ ...predicted, predictors: [normal] }, (i) => predictedViews[i]), /centers/);
+  assert.throws(() => decodedSet(predicted, (i) => (i === 2 ? new Uint8Array(0) : predictedViews[i])), /end too early/);
 });
 
 test("three channels are multiplied by three colours", () => {
@@ -249,22 +254,23 @@ test("the direct term is lit by the sky, other terms by sky and suns", () => {
 test("invalid terms are rejected", () => {
   const of = (...kinds) => kinds.map((kind) => ({ kind, channels: 1 }));
   for (const terms of [undefined, [], of("lamp"), of("indirect", "direct"), of("direct", "combined"), of("direct", "direct"), of("direct,indirect")])
-    assert.throws(() => decodeClusters({ ...plain, terms }, (i) => plainViews[i]), /terms/);
+    assert.throws(() => decodedSet({ ...plain, terms }, (i) => plainViews[i]), /terms/);
   const sun = { kind: "lamp", channels: 1, name: "sun 12:00", towards: [0, 1, 0] };
-  assert.throws(() => decodeClusters({ ...plain, terms: [...of("combined"), sun] }, (i) => plainViews[i]), /bake the scene again/);
-  assert.throws(() => decodeClusters({ ...plain, terms: [{ kind: "combined", channels: 2 }] }, (i) => plainViews[i]), /terms/);
+  assert.throws(() => decodedSet({ ...plain, terms: [...of("combined"), sun] }, (i) => plainViews[i]), /bake the scene again/);
+  assert.throws(() => decodedSet({ ...plain, terms: [{ kind: "combined", channels: 2 }] }, (i) => plainViews[i]), /terms/);
 });
 
-test("damaged files and other versions are rejected with a reason", () => {
-  assert.throws(() => decodeClusters({ ...plain, version: 1 }, (i) => plainViews[i]), /version 1/);
-  assert.throws(() => decodeClusters({ ...plain, order: 11 }, (i) => plainViews[i]), /order/);
-  assert.throws(() => decodeClusters({ ...plain, components: [3, 0] }, (i) => plainViews[i]), /do not contain \d+ floats/);
-  assert.throws(() => decodeClusters(plain, (i) => [plainViews[0], new Uint8Array(0)][i]), /ends too early/);
+test("damaged files are rejected with a reason", () => {
+  assert.throws(() => decodedSet({ ...plain, order: 11 }, (i) => plainViews[i]), /order/);
+  assert.throws(() => decodedSet({ ...plain, components: [3, 0] }, (i) => plainViews[i]), /do not contain \d+ floats/);
+  assert.throws(() => decodedSet(plain, (i) => [plainViews[0], new Uint8Array(0)][i]), /the widths of the packed weights end too early/);
+  const third = [bytesOf(2, 0.5, 0.25, 3, 4), plainViews[1]]; // a byte has two widths
+  assert.throws(() => decodedSet({ ...plain, components: [2, 1] }, (i) => third[i]), /the widths of the packed weights end too early/);
 });
 
 test("invalid values are rejected with a reason", () => {
   const refused = (changes, reason, views = plainViews) =>
-    assert.throws(() => decodeClusters({ ...plain, ...changes }, (i) => views[i]), reason);
+    assert.throws(() => decodedSet({ ...plain, ...changes }, (i) => views[i]), reason);
   for (const order of [0, 2.5, "1", null]) refused({ order }, /order/);
   for (const components of [[], "2", [2, -1], [2, 0.5], [601], new Array(65537).fill(0)]) refused({ components }, /components/);
   for (const bases of [undefined, 7, {}, { bufferView: -1 }, { bufferView: 0, componentType: 5131 }]) refused({ bases }, /bases/);
@@ -281,18 +287,19 @@ test("rows of zeros are limited to the memory for the file size", () => {
   const zeros = new Uint8Array(rows * 8);
   const extension = { ...plain, packing: undefined, components: new Array(rows).fill(7), bases: { ...coded, values: { bufferView: 3, drops } } };
   const views = [bytesOf(0), new Uint8Array(800), new Uint8Array(200), zeros];
-  assert.throws(() => decodeClusters(extension, (i) => views[i]), /the bases would need 426 MB/);
+  assert.throws(() => decodedSet(extension, (i) => views[i]), /the bases would need 426 MB/);
 });
 
 test("a row has a value for each coefficient of each channel", () => {
   const extension = {
-    version: 8,
+    receivers: "vertices",
+    coding: "clustered",
     order: 2,
     terms: [{ kind: "combined", channels: 3 }],
     components: [0],
     bases: { bufferView: 0, componentType: 5126 },
   };
   const values = Array.from({ length: 12 }, (_, i) => i);
-  assert.deepEqual([...decodeClusters(extension, () => bytesOf(...values)).rows], values);
-  assert.throws(() => decodeClusters(extension, () => bytesOf(...values.slice(1))), /do not contain \d+ floats/);
+  assert.deepEqual([...decodedSet(extension, () => bytesOf(...values)).rows], values);
+  assert.throws(() => decodedSet(extension, () => bytesOf(...values.slice(1))), /do not contain \d+ floats/);
 });

@@ -13,6 +13,7 @@ import { chromium } from "playwright-core";
 import { preview } from "vite";
 import { distFolder } from "../tools/folders.mjs";
 import { bakedModel } from "./bakedModel.js";
+import { setIn } from "./transferSets.js";
 
 const web = fileURLToPath(new URL("../", import.meta.url));
 const prt = process.env.PRT ?? join(web, "../../build/release/cli/prt");
@@ -876,18 +877,15 @@ await check("lightmaps of prt: the picture equals that of prt render", async (pa
   assert.ok(d.far < FAR_SHARE, `${d.far} of the pixels differ`);
 });
 
-for (const [name, extensions] of Object.entries({
-  PRTKIT_transfer: { PRTKIT_transfer: { version: 5 } },
-  PRTKIT_lightmap: { PRTKIT_lightmap: { version: 2, raw: {} } },
-}))
-  await check(`a raw bake with ${name} shows the command that compresses it`, async (page) => {
+for (const by of ["vertices", "texels"])
+  await check(`a raw bake of ${by} shows the command that compresses it`, async (page) => {
     const raw = join(work, "raw.glb");
-    writeFileSync(raw, bakedModel("vertices", (json) => (json.extensions = extensions)));
+    writeFileSync(raw, bakedModel(by, (json) => (setIn(json, by).coding = "raw")));
     await page.goto(url({ model: "knot" }));
     await picture(page);
     await dropped(page, { "raw.glb": raw });
     await page.waitForSelector("#message:not([hidden])");
-    assert.match(await page.locator("#message").innerText(), new RegExp(`^raw.glb: ${name}: .*prt compress baked.glb -o shipped.glb`));
+    assert.match(await page.locator("#message").innerText(), new RegExp(`^raw.glb: PRTKIT_transfer: ${by}: .*prt compress baked.glb -o shipped.glb`));
   });
 
 await browser.close();

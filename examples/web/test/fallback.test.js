@@ -5,6 +5,7 @@ import { test } from "node:test";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { PrtkitPlugin } from "../src/PrtkitLoader.js";
 import { bakedModel } from "./bakedModel.js";
+import { setIn } from "./transferSets.js";
 
 globalThis.ProgressEvent ??= Event; // exists in browsers; three's FileLoader creates some
 const count = (json, { attributes }) => json.accessors?.[attributes.POSITION].count;
@@ -13,7 +14,7 @@ const count = (json, { attributes }) => json.accessors?.[attributes.POSITION].co
 function addFallback(json, binary) {
   delete json.textures;
   json.materials = json.materials.map(({ normalTexture: _, ...material }) => structuredClone(material));
-  json.extensions.PRTKIT_clustered_pca.fallback = { exposure: 0.5 };
+  setIn(json, "vertices").fallback = { exposure: 0.5 };
   const counts = json.meshes.map(({ primitives }) => count({ accessors: binary.accessors }, primitives[0]));
   const colors = (i, value) => binary.accessor(new Float32Array(3 * counts[i]).fill(value), "VEC3");
   for (const i of [0, 1]) {

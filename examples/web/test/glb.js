@@ -1,5 +1,6 @@
 // Writes test models: binary glTF files, and PNG.
 import { crc32, deflateSync } from "node:zlib";
+import { setsOf } from "../src/wholeExtension.js";
 
 /** Buffer views and accessors of one file, one behind the other. */
 export class Binary {
@@ -53,16 +54,13 @@ export function png(width, height, bytes) {
   return Buffer.concat([Buffer.from([137, 80, 78, 71, 13, 10, 26, 10]), chunk("IHDR", header), chunk("IDAT", deflateSync(rows)), chunk("IEND", Buffer.alloc(0))]);
 }
 
-/**
- * Returns the extension of that name at the top level of a file, and a function that returns the bytes of its
- * buffer views.
- */
-export function extensionOf(file, name) {
+/** Returns the set of these receivers in a file, and a function that returns the bytes of its buffer views. */
+export function setOf(file, receivers) {
   const length = file.readUInt32LE(12);
   const json = JSON.parse(file.toString("utf8", 20, 20 + length));
   const view = (i) => {
     const { byteOffset, byteLength } = json.bufferViews[i];
     return new Uint8Array(file.subarray(28 + length + byteOffset, 28 + length + byteOffset + byteLength));
   };
-  return { extension: json.extensions[name], view };
+  return { set: setsOf(json)[receivers], view };
 }

@@ -1,6 +1,7 @@
 // A small model whose balls are instances with shared transfer, as `prt bake --instances shared` and `prt
 // compress` write it, with synthetic transfer and factors.
 import { bakedModel, COMPONENTS } from "./bakedModel.js";
+import { setIn } from "./transferSets.js";
 
 export const PARTS = [
   { kind: "direct", channels: 1 },
@@ -54,7 +55,7 @@ export const PLACES = {
 /** Returns the file; `by`: see bakedModel; `change(json, binary)` may modify it. */
 export function instanceModel(by = "vertices", change = () => {}) {
   return bakedModel(by, (json, binary) => {
-    const clusters = json.extensions.PRTKIT_clustered_pca;
+    const clusters = setIn(json, "vertices");
     const predictors = 3 * clusters.predictors.length;
     const next = random(7);
     const row = (most, mean) => Array.from({ length: SIZE }, (_, a) => (mean && a % 4 === 0 ? 0.25 : 0) + most * (next() - 0.5));

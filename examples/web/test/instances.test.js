@@ -7,7 +7,9 @@ import { instanceRotations, InstanceModes } from "../src/instanceModes.js";
 import { PrtkitPlugin, ShLight } from "../src/PrtkitLoader.js";
 import { evaluateSh, gaussLegendre } from "../src/sphericalHarmonics.js";
 import { PrtkitPlugin as NodePlugin } from "../src/webgpu.js";
+import { texelSet } from "./bakedModel.js";
 import { BOXES, bytes, COUNT, factors, instanceModel, PLACES, SCALES } from "./instanceModel.js";
+import { addSet, setIn } from "./transferSets.js";
 
 const load = (file, Plugin = PrtkitPlugin) => {
   const loader = new GLTFLoader().register((parser) => new Plugin(parser));
@@ -378,8 +380,12 @@ for (const [what, change, message] of [
   ["a missing accessor", (json) => (gpuOf(json).SCALE = 999), /node 1 has no instances, or more/],
   ["too many instances", (json) => (json.accessors = undefined, gpuOf(json).SCALE = -1), /node 1 has no instances, or more/],
   ["a lamp", (json) => {
-    json.extensions.PRTKIT_clustered_pca.terms = [{ kind: "indirect", channels: 3 }, ...[0, 1, 2, 3].map((i) => ({ kind: "lamp", channels: 1, name: `lamp ${i}` }))];
+    setIn(json, "vertices").terms = [{ kind: "indirect", channels: 3 }, ...[0, 1, 2, 3].map((i) => ({ kind: "lamp", channels: 1, name: `lamp ${i}` }))];
   }, /do not support lamps/],
+  ["texels", (json, binary) => {
+    json.images = [];
+    addSet(json, texelSet(json, binary));
+  }, /the file also has transfer of texels/],
 ])
   test(`${what}: rejected with a reason`, async () => {
     await assert.rejects(load(instanceModel("vertices", change)), (error) => {

@@ -1,4 +1,4 @@
-// Tests files with PRTKIT_lightmap: loading and rejection. renderers.mjs draws them.
+// Tests files with transfer of texels: loading and rejection. renderers.mjs draws them.
 import assert from "node:assert/strict";
 import { afterEach, beforeEach, test } from "node:test";
 import { ShaderLib } from "three";
@@ -6,6 +6,8 @@ import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { PrtkitPlugin, ShLight } from "../src/PrtkitLoader.js";
 import { bakedModel, MAPS } from "./bakedModel.js";
 import { png } from "./glb.js";
+import { addSet, setIn } from "./transferSets.js";
+import { PROBES, volumeSet } from "./volumeModel.js";
 
 const { createImageBitmap } = globalThis;
 globalThis.ProgressEvent ??= Event; // exists in browsers; three's FileLoader creates some
@@ -16,9 +18,9 @@ beforeEach(() => {
 });
 afterEach(() => (globalThis.createImageBitmap = createImageBitmap));
 
-/** The file, without textures for which node has no decoder. */
-function load(change = () => {}) {
-  const file = bakedModel("texels", (json, binary) => {
+/** The file, without textures for which node has no decoder; `by`: see bakedModel. */
+function load(change = () => {}, by = "texels") {
+  const file = bakedModel(by, (json, binary) => {
     delete json.textures;
     json.materials = json.materials.map(({ normalTexture: _, ...material }) => material);
     change(json, binary);
@@ -26,7 +28,8 @@ function load(change = () => {}) {
   const loader = new GLTFLoader().register((parser) => new PrtkitPlugin(parser));
   return loader.parseAsync(file.buffer.slice(file.byteOffset, file.byteOffset + file.length), "");
 }
-const extensionOf = (json) => json.extensions.PRTKIT_lightmap;
+const mapsOf = (json) => setIn(json, "texels").maps;
+const placed = (json) => json.meshes[0].primitives[0].extensions.PRTKIT_transfer;
 
 test("materials have a rendered light map with the texture coordinates of the file", async () => {
   const { scene, userData } = await load();
@@ -64,6 +67,28 @@ test("separate image files are read", async () => {
   assert.equal(userData.prtkit.maps.maps[0].words.length, 2);
 });
 
+test("surfaces with transfer of texels and vertices show that of texels", async () => {
+  const addFallback = (json) => {
+    setIn(json, "vertices").fallback = { exposure: 0.5 };
+    json.materials[1] = { ...json.materials[1], extensions: { KHR_materials_unlit: { extras: { prtkit: "fallback" } } } };
+  };
+  const { scene, userData } = await load((json, binary) => {
+    addFallback(json);
+    addSet(json, volumeSet(binary));
+  }, "both");
+  const { prtkit } = userData;
+  assert.deepEqual([prtkit.vertices, prtkit.texels, prtkit.volume.probes], [0, MAPS[0].width * MAPS[0].height + MAPS[1].width * MAPS[1].height, PROBES]);
+  for (const { geometry, material } of scene.children) {
+    assert.ok(material.isMeshStandardMaterial && material.lightMap && material.defines.PRT_LIGHTMAP);
+    assert.deepEqual(Object.keys(geometry.attributes).filter((name) => /prt/.test(name)), []);
+  }
+  const light = ShLight.fromCoefficients(3, new Array(27).fill(1));
+  prtkit.setLight(light);
+  const alone = (await load()).userData.prtkit;
+  alone.setLight(light);
+  assert.deepEqual(prtkit.constantsTexture.image.data, alone.constantsTexture.image.data);
+});
+
 test("maps are drawn again for each renderer after a change of light", async () => {
   const { userData } = await load();
   const { prtkit } = userData;
@@ -99,30 +124,28 @@ test("maps are drawn again after a lost device is restored", async () => {
 });
 
 const refusals = {
-  "another version": [(json) => (extensionOf(json).version = 1), /version 1 is not supported, only 2; compress the model again/],
-  "a raw bake": [(json) => (extensionOf(json).raw = {}), /the file is an uncompressed bake; compress it: prt compress/],
-  "predictors": [(json) => Object.assign(extensionOf(json), { predictors: [{ kind: "normal", scale: [1, 1, 1] }], centers: { bufferView: 0, drops: [0, 0, 0] } }), /texels do not support predictors/],
-  "weights that are not packed": [(json) => delete extensionOf(json).packing, /not packed/],
-  "no maps": [(json) => (extensionOf(json).maps = []), /the maps are invalid/],
-  "a map without a size": [(json) => delete extensionOf(json).maps[0].width, /the maps are invalid/],
-  "maps of different words": [(json) => extensionOf(json).maps[1].images.pop(), /different numbers of images/],
-  "a missing image": [(json) => (extensionOf(json).maps[0].images[0] = 99), /an image of a map does not exist/],
-  "too many words": [(json) => extensionOf(json).maps.forEach(({ images }) => images.push(images[0])), /a texel has 3 words, not 2/],
-  "too few words": [(json) => extensionOf(json).maps.forEach(({ images }) => images.pop()), /a texel has 1 words, not 2/],
-  "damaged bases": [(json) => (extensionOf(json).bases.bufferView = 0), /the bases do not contain \d+ floats/],
-  "a missing buffer view": [(json) => (extensionOf(json).bases.bufferView = 999), /buffer view 999 cannot be read/],
-  "an image of another size": [(json) => (extensionOf(json).maps[0].width = 64), /image 1 does not have the size of its map/],
-  "an image that is not a PNG": [(json) => (json.images[1].bufferView = extensionOf(json).bases.bufferView), /image 1 is not a PNG with four channels of 8 bits/],
+  "a raw bake": [(json) => (setIn(json, "texels").coding = "raw"), /the file is an uncompressed bake; compress it: prt compress/],
+  "predictors": [(json) => Object.assign(setIn(json, "texels"), { predictors: [{ kind: "normal", scale: [1, 1, 1] }], centers: { bufferView: 0, drops: [0, 0, 0] } }), /predictors are only for vertices/],
+  "weights that are not packed": [(json) => delete setIn(json, "texels").packing, /not packed/],
+  "no maps": [(json) => (setIn(json, "texels").maps = []), /the maps are invalid/],
+  "a map without a size": [(json) => delete mapsOf(json)[0].width, /the maps are invalid/],
+  "maps of different words": [(json) => mapsOf(json)[1].images.pop(), /different numbers of images/],
+  "a missing image": [(json) => (mapsOf(json)[0].images[0] = 99), /an image of a map does not exist/],
+  "too many words": [(json) => mapsOf(json).forEach(({ images }) => images.push(images[0])), /a texel has 3 words, not 2/],
+  "too few words": [(json) => mapsOf(json).forEach(({ images }) => images.pop()), /a texel has 1 words, not 2/],
+  "damaged bases": [(json) => (setIn(json, "texels").bases.bufferView = 0), /the bases do not contain \d+ floats/],
+  "a missing buffer view": [(json) => (setIn(json, "texels").bases.bufferView = 999), /buffer view 999 cannot be read/],
+  "an image of another size": [(json) => (mapsOf(json)[0].width = 64), /image 1 does not have the size of its map/],
+  "an image that is not a PNG": [(json) => (json.images[1].bufferView = setIn(json, "texels").bases.bufferView), /image 1 is not a PNG with four channels of 8 bits/],
   "a short image": [(json, binary) => (json.images[1].bufferView = binary.view(png(96, 64, new Uint8Array(4 * 96 * 64)).subarray(0, 20))), /image 1 is not a PNG/],
-  "a missing map": [(json) => (json.meshes[0].primitives[0].extensions.PRTKIT_lightmap.map = 7), /names a map that does not exist/],
-  "coordinates that three does not support": [(json) => (json.meshes[0].primitives[0].extensions.PRTKIT_lightmap.texCoord = 4), /uses TEXCOORD_4 for its map; three supports/],
-  "missing coordinates": [(json) => (json.meshes[0].primitives[0].extensions.PRTKIT_lightmap.texCoord = 2), /has no TEXCOORD_2/],
-  "transfer of vertices and texels": [(json) => (json.extensions.PRTKIT_clustered_pca = {}), /also has transfer of texels/],
+  "a missing map": [(json) => (placed(json).map = 7), /names a map that does not exist/],
+  "coordinates that three does not support": [(json) => (placed(json).texCoord = 4), /uses TEXCOORD_4 for its map; three supports/],
+  "missing coordinates": [(json) => (placed(json).texCoord = 2), /has no TEXCOORD_2/],
 };
 for (const [what, [change, message]] of Object.entries(refusals))
   test(`${what}: rejected with a reason`, async () => {
     await assert.rejects(load(change), (error) => {
-      assert.match(error.message, /^PRTKIT_(lightmap|clustered_pca): /);
+      assert.match(error.message, /^PRTKIT_transfer: texels: /);
       assert.match(error.message, message);
       return true;
     });
@@ -132,7 +155,7 @@ test("an image that cannot be decoded is reported", async () => {
   globalThis.createImageBitmap = async () => {
     throw new Error("broken");
   };
-  await assert.rejects(load(), /PRTKIT_lightmap: image \d cannot be decoded/);
+  await assert.rejects(load(), /PRTKIT_transfer: texels: image \d cannot be decoded/);
   globalThis.createImageBitmap = undefined;
-  await assert.rejects(load(), /PRTKIT_lightmap: createImageBitmap is missing, so images cannot be decoded/);
+  await assert.rejects(load(), /PRTKIT_transfer: texels: createImageBitmap is missing, so images cannot be decoded/);
 });

@@ -5,8 +5,10 @@ import { Euler, Scene, ShaderLib } from "three";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { PrtkitPlugin, ShLight } from "../src/PrtkitLoader.js";
 import { PrtkitPlugin as NodePlugin } from "../src/webgpu.js";
-import { bakedModel } from "./bakedModel.js";
+import { bakedModel, vertexSet } from "./bakedModel.js";
 import { ACROSS, DOWN, LOBES, lobeModel, PROFILES, profiles, squares } from "./lobeModel.js";
+import { transferOf } from "./transferSets.js";
+import { PROBES, volumeSet } from "./volumeModel.js";
 
 const load = (file, Plugin = PrtkitPlugin) => {
   const loader = new GLTFLoader().register((parser) => new Plugin(parser));
@@ -67,6 +69,11 @@ test("the shader rotates axes with three's skin matrix", async () => {
   assert.equal(material.clone().defines.PRT_LOBES, 2);
 });
 
+test("a volume may accompany lobes", async () => {
+  const { prtkit } = (await load(lobeModel(4, (json, binary) => Object.assign(json.extensions, transferOf(volumeSet(binary)))))).userData;
+  assert.deepEqual([prtkit.lobes, prtkit.volume.probes], [LOBES, PROBES]);
+});
+
 test("tables are freed", async () => {
   const { prtkit } = (await load(lobeModel())).userData;
   let freed = 0;
@@ -102,7 +109,7 @@ for (const [what, change, message] of [
   ["fewer lobes", (json, binary) => {
     json.meshes[0].primitives[0].attributes._PRT_LOBE_0 = binary.accessor(new Uint8Array(16), "VEC4");
   }, /a primitive has no _PRT_LOBE_0 of four bytes/],
-  ["additional transfer of one pose", (json) => (json.extensions.PRTKIT_clustered_pca = {}), /the file also has transfer that does not rotate/],
+  ["additional transfer of one pose", (json, binary) => Object.assign(json.extensions, transferOf(vertexSet(binary, "vertices"))), /the file also has transfer that does not rotate/],
 ])
   test(`${what}: rejected with a reason`, async () => {
     await assert.rejects(load(lobeModel(4, change)), (error) => {

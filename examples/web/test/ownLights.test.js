@@ -6,6 +6,7 @@ import { LitTransfer } from "../src/LitTransfer.js";
 import { PrtkitPlugin } from "../src/PrtkitLoader.js";
 import { evaluateSh, ShLight } from "../src/sphericalHarmonics.js";
 import { noteLightsOfFile } from "../src/unusedLights.js";
+import { transferOf } from "./transferSets.js";
 
 const ORDER = 3;
 
@@ -118,10 +119,12 @@ test("each light that does not light baked meshes is reported once", () => {
   assert.deepEqual(drawn(), []);
 });
 
+const SET = { receivers: "vertices", coding: "clustered", order: 1, terms: [{ kind: "combined", channels: 1 }], components: [0], bases: { bufferView: 0 } };
+
 for (const [what, json] of Object.entries({
   "nodes that are not a list": { nodes: { a: 1 }, extensions: {} },
   "no scene, but occluders": { nodes: [{ extensions: { PRTKIT_occlusion_volume: {} } }], extensions: {} },
-  "no scene, but transfer": { nodes: [], extensions: { PRTKIT_clustered_pca: {} } },
+  "no scene, but transfer": { nodes: [], extensions: transferOf(SET) },
 }))
   test(`${what}: an Error with a reason`, async () => {
     const parser = { json, associations: new Map() };
@@ -132,7 +135,7 @@ for (const [what, json] of Object.entries({
   });
 
 test("nodes of shared instances that are not a list: an Error with a reason", async () => {
-  const json = { nodes: 3, extensions: { PRTKIT_clustered_pca: {}, PRTKIT_instances: { version: 1, count: 1, boxes: [{ middle: [0, 0, 0], half: [1, 1, 1] }], factors: { bufferView: 0 } } } };
+  const json = { nodes: 3, extensions: { ...transferOf(SET), PRTKIT_instances: { version: 1, count: 1, boxes: [{ middle: [0, 0, 0], half: [1, 1, 1] }], factors: { bufferView: 0 } } } };
   const plugin = new PrtkitPlugin({ json });
   await assert.rejects(plugin.beforeRoot(), (error) => error.constructor === Error && /^PRTKIT_instances: /.test(error.message));
 });

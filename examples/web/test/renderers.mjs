@@ -15,10 +15,11 @@ import { createServer } from "vite";
 import { clustersOf, lightColumns } from "../src/clusteredPca.js";
 import { volumeOf } from "../src/volumeTransfer.js";
 import { bakedModel, MAPS, texelWords } from "./bakedModel.js";
-import { extensionOf, png } from "./glb.js";
+import { png, setOf } from "./glb.js";
 import { leftAt, occluderModel } from "./occluderModel.js";
 import { boneMatrices, cornersOf, lobeModel, radianceOf, squares } from "./lobeModel.js";
-import { incidentAround, sumOf, volumeExtension, volumeModel } from "./volumeModel.js";
+import { addSet } from "./transferSets.js";
+import { incidentAround, sumOf, volumeModel, volumeSet } from "./volumeModel.js";
 import { radianceOfWords } from "./wordRadiance.js";
 
 const [, , pattern = ""] = process.argv;
@@ -51,7 +52,7 @@ function leafy(json) {
 }
 const models = Object.fromEntries(["vertices", "weights", "texels"].map((by) => [`${by}.glb`, bakedModel(by)]));
 for (const by of ["vertices", "texels"])
-  models[`moving_${by}.glb`] = bakedModel(by, (json, binary) => (json.extensions.PRTKIT_transfer_volume = volumeExtension(binary)));
+  models[`moving_${by}.glb`] = bakedModel(by, (json, binary) => addSet(json, volumeSet(binary)));
 models["volume.glb"] = volumeModel();
 models["passer.glb"] = occluderModel();
 for (const order of [2, 3, 4]) models[`lobes_${order}.glb`] = lobeModel(order);
@@ -103,9 +104,9 @@ const light = [3, 2.5, 2, 0.4, 0.2, -0.3, -0.2, 0.5, 0.1, 0.6, -0.4, 0.3];
 await check("texels have the radiance of their words, drawn once for each light", async () => {
   const lamps = { Lantern: [0.5, 0.25, 2] };
   const found = await ask("texels", { model: "texels.glb", light, lamps });
-  const { extension, view } = extensionOf(models["texels.glb"], "PRTKIT_lightmap");
-  const columns = lightColumns(clustersOf(extension, view), light, null, lamps.Lantern);
-  const clusters = clustersOf(extension, view);
+  const { set, view } = setOf(models["texels.glb"], "texels");
+  const columns = lightColumns(clustersOf(set, view), light, null, lamps.Lantern);
+  const clusters = clustersOf(set, view);
   let [most, mostHalf] = [0, 0];
   const seen = new Set();
   for (const { i, bytes, halves, floats } of found.maps)
@@ -228,8 +229,8 @@ const points = [
  * radiance.
  */
 async function offPlain(askThere, asked, expected) {
-  const { extension, view } = extensionOf(models[asked.model], "PRTKIT_transfer_volume");
-  const volume = volumeOf(extension, view);
+  const { set, view } = setOf(models[asked.model], "probes");
+  const volume = volumeOf(set, view);
   const columns = lightColumns(volume.clusters, volumeLight, null, [0.5, 2, 0.25]);
   const pixels = await askThere("lit", { ...asked, light: volumeLight, lamps: { Lantern: [0.5, 2, 0.25] }, size: [across, down] });
   const rotated = new Euler().fromArray(asked.rotation);
@@ -327,8 +328,8 @@ await check("lobes rotate with the skin in world-space light, equal to plain Jav
 
 await check("lobes have the light of the volume at their position, equal to plain JavaScript", async () => {
   const size = [480, 480];
-  const { extension, view } = extensionOf(models["volume.glb"], "PRTKIT_transfer_volume");
-  const volume = volumeOf(extension, view);
+  const { set, view } = setOf(models["volume.glb"], "probes");
+  const volume = volumeOf(set, view);
   const columns = lightColumns(volume.clusters, volumeLight, null, null);
   const pose = [[0.3, -0.2, 0.4], [-0.5, 0.4, -0.2]];
   const bones = boneMatrices(pose);

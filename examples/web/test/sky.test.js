@@ -19,10 +19,10 @@ import {
   Vector3,
 } from "three";
 import { lightFromProbe, PrtkitModel, projectEquirectangular, projectInWorker, SunLights } from "../src/PrtkitLoader.js";
-import { decodeClusters } from "../src/clusteredPca.js";
 import { halfFloat } from "../src/halfFloat.js";
 import { evaluateSh, ShLight } from "../src/sphericalHarmonics.js";
 import { environmentRotation, rotatedBy } from "../src/rotations.js";
+import { decodedSet } from "./transferSets.js";
 
 const near = (actual, expected, tolerance, what = "") =>
   assert.ok(Math.abs(actual - expected) <= tolerance, `${what} ${actual} is not within ${tolerance} of ${expected}`);
@@ -34,8 +34,8 @@ const allNear = (actual, expected, tolerance, what) => expected.forEach((value, 
  */
 function modelTowardsX(root) {
   const values = [0.25, 0, 0, -0.3];
-  const extension = { version: 8, order: 2, terms: [{ kind: "combined", channels: 1 }], components: [0], bases: { bufferView: 0 } };
-  return new PrtkitModel(decodeClusters(extension, () => new Uint8Array(new Float32Array(values).buffer)), root);
+  const set = { receivers: "vertices", coding: "clustered", order: 2, terms: [{ kind: "combined", channels: 1 }], components: [0], bases: { bufferView: 0 } };
+  return new PrtkitModel(decodedSet(set, () => new Uint8Array(new Float32Array(values).buffer)), root);
 }
 
 const redOf = (model) => model.constantsTexture.image.data[0];

@@ -1,4 +1,4 @@
-// Files with PRTKIT_transfer_volume: tests of reading, computing, textures and materials against plain arithmetic. renderers.mjs draws them.
+// Files with transfer of probes: tests of reading, computing, textures and materials against plain arithmetic. renderers.mjs draws them.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import {
@@ -21,17 +21,18 @@ import { positionOf } from "../src/volumeGrid.js";
 import { atlasOf, texelOf } from "../src/volumeTextures.js";
 import { volumeOf } from "../src/volumeTransfer.js";
 import { bakedModel } from "./bakedModel.js";
-import { extensionOf } from "./glb.js";
+import { setOf } from "./glb.js";
 import { BOXES, occluderModel } from "./occluderModel.js";
-import { GRID, incidentAt, PROBES, volumeExtension, volumeModel } from "./volumeModel.js";
+import { addSet, setIn } from "./transferSets.js";
+import { GRID, incidentAt, PROBES, volumeModel, volumeSet } from "./volumeModel.js";
 
 const load = (file) => {
   const loader = new GLTFLoader().register((parser) => new PrtkitPlugin(parser));
   return loader.parseAsync(file.buffer.slice(file.byteOffset, file.byteOffset + file.length), "");
 };
 const readVolume = (options, change) => {
-  const { extension, view } = extensionOf(volumeModel(options, change), "PRTKIT_transfer_volume");
-  return volumeOf(extension, view);
+  const { set, view } = setOf(volumeModel(options, change), "probes");
+  return volumeOf(set, view);
 };
 const coefficients = Array.from({ length: 27 }, (_, i) => Math.cos(3 * i + 1) + (i < 3 ? 3 : 0));
 const light = ShLight.fromCoefficients(3, coefficients);
@@ -154,7 +155,7 @@ test("a volume and transfer of surfaces are lit together", async () => {
   const { userData } = await load(bakedModel("vertices", (json, binary) => {
     delete json.textures;
     json.materials = json.materials.map(({ normalTexture: _, ...material }) => material);
-    json.extensions.PRTKIT_transfer_volume = volumeExtension(binary);
+    addSet(json, volumeSet(binary));
   }));
   const { prtkit } = userData;
   assert.ok(prtkit.volume instanceof PrtkitVolume);
@@ -282,17 +283,16 @@ test("occluders darken surfaces at their positions while they are visible", asyn
   assert.deepEqual([occluders.count, occluders.rows[4].x], [1, 1]);
 });
 
-const extensionIn = (json) => json.extensions.PRTKIT_transfer_volume;
 const refusals = {
-  "another version": [(e) => (e.version = 1), /version 1 is not supported, only 2; compress the model again/],
-  "a raw bake": [(e) => (e.raw = {}), /the file is an uncompressed bake; compress it: prt compress/],
+  "a raw bake": [(e) => (e.coding = "raw"), /the file is an uncompressed bake; compress it: prt compress/],
   "an order outside the range": [(e) => (e.incidentOrder = 5), /the order of incident light is not 2 to 4/],
   "no spacing": [(e) => (e.spacing = 0), /the spacing or the origin is invalid/],
   "an origin that is not a list": [(e) => (e.origin = 3), /the spacing or the origin is invalid/],
   "too many bricks along an axis": [(e) => (e.size = [1025, 1, 1]), /the size is not 1 to 1024 bricks/],
   "more than the memory limit": [(e) => (e.size = [1024, 1024, 1024]), /the volume would need 17180 MB/],
-  "predictors": [(e) => Object.assign(e, { predictors: [{ kind: "normal", scale: [1, 1, 1] }], centers: { ...e.words, drops: [0, 0, 0] } }), /probes do not support predictors/],
-  "weights that are not packed": [(e) => delete e.packing, /the weights of probes are not packed/],
+  "predictors": [(e) => Object.assign(e, { predictors: [{ kind: "normal", scale: [1, 1, 1] }], centers: { ...e.words, drops: [0, 0, 0] } }), /predictors are only for vertices/],
+  "coded words": [(e) => (e.packing.words = { ...e.words, vertices: 1, frequencies: { byteLength: 0, drops: [] } }), /coded words are only for vertices/],
+  "weights that are not packed": [(e) => delete e.packing, /the weights are not packed/],
   "no words": [(e) => delete e.words, /bricks, visibility or words are missing/],
   "bricks that are not groups of eight bytes": [(e, binary) => (e.bricks = { bufferView: binary.view(new Uint8Array(9)) }), /not groups of eight bytes/],
   "a brick outside the volume": [(e, binary) => (e.bricks = { bufferView: binary.view(Uint16Array.of(3, 0, 0, 0)) }), /a brick is outside the volume/],
@@ -306,9 +306,9 @@ const refusals = {
 };
 for (const [what, [change, message]] of Object.entries(refusals))
   test(`${what}: rejected with a reason`, async () => {
-    const file = volumeModel({}, (json, binary) => change(extensionIn(json), binary));
+    const file = volumeModel({}, (json, binary) => change(setIn(json, "probes"), binary));
     await assert.rejects(load(file), (error) => {
-      assert.match(error.message, /^PRTKIT_transfer_volume: /);
+      assert.match(error.message, /^PRTKIT_transfer: probes: /);
       assert.match(error.message, message);
       return true;
     });

@@ -2,6 +2,7 @@
 // unoccluded probes; and its light, computed in plain JavaScript.
 import { evaluateSh } from "../src/sphericalHarmonics.js";
 import { Binary } from "./glb.js";
+import { transferOf } from "./transferSets.js";
 import { radianceOfWords } from "./wordRadiance.js";
 
 export const PARTS = [
@@ -63,12 +64,13 @@ function visibilityOf(open) {
   });
 }
 
-/** Returns the extension, with its data in `binary`. */
-export function volumeExtension(binary, { incidentOrder = 3, open = false } = {}) {
+/** Returns the set of probes, with its data in `binary`. */
+export function volumeSet(binary, { incidentOrder = 3, open = false } = {}) {
   const outputs = incidentOrder ** 2;
   const view = (array) => ({ bufferView: binary.view(array) });
   return {
-    version: 2,
+    receivers: "probes",
+    coding: "clustered",
     order: ORDER,
     incidentOrder,
     terms: PARTS,
@@ -85,8 +87,7 @@ export function volumeExtension(binary, { incidentOrder = 3, open = false } = {}
 /** Returns a file that contains only a volume. */
 export function volumeModel(options = {}, change = () => {}) {
   const binary = new Binary();
-  const json = { scene: 0, scenes: [{ nodes: [] }], extensions: {} };
-  json.extensions.PRTKIT_transfer_volume = volumeExtension(binary, options);
+  const json = { scene: 0, scenes: [{ nodes: [] }], extensions: transferOf(volumeSet(binary, options)) };
   change(json, binary);
   return binary.file(json);
 }
