@@ -3,7 +3,7 @@
 // position within the box of the mesh, so that a row needs three vectors, not one. Does not use three.js.
 
 import { updateConstants, lightColumns } from "./clusteredPca.js";
-import { ADDED_BANDS, ADDED_MODES, InstanceModes, instanceRotations, PASSING_MODES, responsesOf } from "./instanceModes.js";
+import { ADDED_BANDS, ADDED_MODES, LAMP_FUNCTIONS, LAMP_NUMBERS, InstanceModes, instanceRotations, PASSING_MODES, responsesOf } from "./instanceModes.js";
 import { rotationMatrices, rotatedBands } from "./sphericalHarmonics.js";
 import { updateAtYaw, polarRows, rotationTerms, seriesSize, yawSeries } from "./yawHarmonics.js";
 
@@ -68,6 +68,35 @@ function writeRows(constants, at, rows, modes, responses, factors, added) {
   }
 }
 
+/** Returns clusters and rows without the columns of lamps, which have their own light at instances. */
+function distantLight(clusters, rows) {
+  const terms = clusters.terms.filter(({ kind }) => kind !== "lamp");
+  if (terms.length === clusters.terms.length) return { clusters, rows };
+  const size = rows.length / clusters.rowCount;
+  const kept = clusters.order ** 2 * terms.reduce((sum, { channels }) => sum + channels, 0);
+  const distant = new rows.constructor(kept * clusters.rowCount);
+  for (let r = 0; r < clusters.rowCount; ++r) distant.set(rows.subarray(r * size, r * size + kept), r * kept);
+  return { clusters: { ...clusters, terms }, rows: distant };
+}
+
+/** Returns the light of all lamps together, [LAMP_FUNCTIONS][3][4]; `strengths` [lamps][3]: see lightColumns. */
+function sumOfLamps(lamps, strengths) {
+  const sum = new Float64Array(LAMP_NUMBERS);
+  for (let first = 0, lamp = 0; first < lamps.length; first += LAMP_NUMBERS, ++lamp)
+    for (let j = 0; j < LAMP_NUMBERS; ++j) sum[j] += (strengths ? strengths[3 * lamp + ((j >> 2) % 3)] : 1) * lamps[first + j];
+  return sum;
+}
+
+/** Adds the light of lamps (sumOfLamps) to the constants of an instance; `responses`: see responsesOf. */
+function addLamps(constants, at, rows, responses, light) {
+  for (let n = 0, to = at; n < rows.length; ++n)
+    for (let color = 0; color < 3; ++color, to += 4)
+      for (let i = 0; i < LAMP_FUNCTIONS; ++i) {
+        const response = responses[3 * (LAMP_FUNCTIONS * rows[n] + i) + color];
+        for (let a = 0; a < 4; ++a) constants[to + a] += response * light[12 * i + 4 * color + a];
+      }
+}
+
 /** Returns the light that an instance adds, given the light on level ground, [ADDED_MODES][3] in world axes. */
 function addedBy(factors, onLevel) {
   return Float64Array.from({ length: 3 * ADDED_MODES }, (_, i) => factors[4 * PASSING_MODES + i] * onLevel[i % 3]);
@@ -75,13 +104,15 @@ function addedBy(factors, onLevel) {
 
 export class InstanceRelighter {
   /**
-   * `rows`: see shaderRows. `instances`: { factors, rotation, box, rows } of each: its factors as in files;
-   * rotation from the space of the mesh to the world, [9] by columns; the box of the mesh; the list of
-   * rowsOf.
+   * `rows`: see shaderRows. `instances`: { factors, lamps, rotation, box, rows } of each: its factors as in
+   * files; the light of lamps of lampLightOf, if the transfer has lamps; rotation from the space of the mesh to
+   * the world, [9] by columns; the box of the mesh; the list of rowsOf.
    */
-  constructor(clusters, rows, instances, yaws = YAWS) {
+  constructor(allClusters, allRows, instances, yaws = YAWS) {
+    const { clusters, rows } = distantLight(allClusters, allRows);
     this.clusters = clusters;
     this.rows = rows;
+    this.lampResponses = allClusters === clusters ? null : responsesOf(clusters, rows, LAMP_FUNCTIONS);
     this.instances = instances;
     this.modes = new InstanceModes(clusters.order);
     this.responses = responsesOf(clusters, rows);
@@ -144,10 +175,10 @@ export class InstanceRelighter {
   }
 
   /**
-   * Writes the constants of all instances, [size][4], under coefficients [order²][3] in world axes; `suns`:
-   * see lightColumns.
+   * Writes the constants of all instances, [size][4], under coefficients [order²][3] in world axes; `suns` and
+   * `strengths` of lamps: see lightColumns.
    */
-  update(sky, suns, constants) {
+  update(sky, suns, strengths, constants) {
     const skies = this.modes.passing(sky);
     const passed = suns ? this.modes.passing(suns) : null;
     const onLevel = this.modes.onLevel(suns ? sky.map((value, i) => value + suns[i]) : sky);
@@ -156,9 +187,10 @@ export class InstanceRelighter {
     for (const rotation of this.rotations) {
       this.updateModes(rotation, skies, passed);
       for (const i of rotation.instances) {
-        const { factors, rows } = this.instances[i];
+        const { factors, lamps, rows } = this.instances[i];
         const added = rotatedBands(rotation.bands, addedBy(factors, onLevel));
         writeRows(constants, 4 * this.begins[i], rows, this.constantsOfModes, this.responses, factors, added);
+        if (this.lampResponses) addLamps(constants, 4 * this.begins[i], rows, this.lampResponses, sumOfLamps(lamps, strengths));
       }
     }
     return constants;

@@ -88,8 +88,12 @@ export class LitTransfer {
 
   /** Returns the colours that multiply the terms; see lightColumns. */
   columns(sky, suns) {
-    const strengths = [...this.strengths.values()].flatMap(({ value }) => value.toArray());
-    return lightColumns(this.clusters, sky, suns, strengths);
+    return lightColumns(this.clusters, sky, suns, this.lampStrengths());
+  }
+
+  /** Returns the strengths of all lamps, [lamps][3]. */
+  lampStrengths() {
+    return [...this.strengths.values()].flatMap(({ value }) => value.toArray());
   }
 
   /** Returns the factor on the emission of a material of this name. */

@@ -5,7 +5,7 @@ import { BufferGeometry, InstancedBufferAttribute, InstancedMesh, Matrix4 } from
 import { bakedFrame } from "./bakedFrame.js";
 import { InstanceRelighter, rowsOf } from "./InstanceRelighter.js";
 import { FACTORS } from "./instanceModes.js";
-import { evenRotation, factorsOf, movingNodes, matricesOf } from "./instanceNodes.js";
+import { evenRotation, factorsOf, lampLightOf, movingNodes, matricesOf } from "./instanceNodes.js";
 import { clustersTextureOf, constantsTextureOf, tablesOf, widthFor } from "./tables.js";
 import { expect, INSTANCES } from "./wholeExtension.js";
 
@@ -57,8 +57,9 @@ function objectsOf(gltf, { associations }) {
 }
 
 /** Returns the instances of a group: matrix and factors of each, and its rotation to the world. */
-async function instancesOf({ nodes, moves }, objects, factors, boxes, parser) {
+async function instancesOf({ nodes, moves }, objects, { factors, lamps }, boxes, parser) {
   const count = factors.length / FACTORS;
+  const lampNumbers = lamps.length / count;
   const instances = [];
   for (const node of nodes) {
     const object = objects.get(node.node);
@@ -69,7 +70,8 @@ async function instancesOf({ nodes, moves }, objects, factors, boxes, parser) {
       const rotation = evenRotation(world);
       expect(rotation, `node ${node.node} mirrors an instance or scales it non-uniformly`, INSTANCES);
       const own = factors.subarray(FACTORS * (node.first + i), FACTORS * (node.first + i + 1));
-      instances.push({ matrix: moves ? matrix : world, rotation, factors: own, box: boxes[node.box] });
+      const ownLamps = lamps.subarray(lampNumbers * (node.first + i), lampNumbers * (node.first + i + 1));
+      instances.push({ matrix: moves ? matrix : world, rotation, factors: own, lamps: ownLamps, box: boxes[node.box] });
     });
   }
   return instances;
@@ -78,15 +80,16 @@ async function instancesOf({ nodes, moves }, objects, factors, boxes, parser) {
 export class PrtkitInstances {
   /**
    * Creates the instances of `nodes` (takeInstancesAside) in `gltf`, whose matrices are those of the file.
-   * `model`: its PrtkitModel; `bytes`: the factors; `definesOf`: see vertexTransfer.js.
+   * `model`: its PrtkitModel; `bytes`: the factors; `lampBytes`: the light of lamps, undefined without;
+   * `definesOf`: see vertexTransfer.js.
    */
-  static async of(nodes, { gltf, parser, model, extension, bytes, definesOf }) {
-    const factors = factorsOf(extension, bytes);
+  static async of(nodes, { gltf, parser, model, extension, bytes, lampBytes, definesOf }) {
+    const light = { factors: factorsOf(extension, bytes), lamps: lampLightOf(extension, model.lamps.length, lampBytes) };
     const objects = objectsOf(gltf, parser);
     const groups = [];
     let count = 0;
     for (const group of groupsOf(nodes, parser.json)) {
-      const instances = await instancesOf(group, objects, factors, extension.boxes, parser);
+      const instances = await instancesOf(group, objects, light, extension.boxes, parser);
       count += instances.length;
       expect(count <= extension.count, "there are more instances than factors", INSTANCES);
       if (instances.length === 0) continue;
@@ -95,7 +98,7 @@ export class PrtkitInstances {
       const parent = group.moves ? objects.get(group.nodes[0].node) : gltf.scene;
       groups.push({ ...group, instances, primitives, parent });
     }
-    return new PrtkitInstances(model, groups, { parser, definesOf, bytesPerInstance: bytes.byteLength / extension.count });
+    return new PrtkitInstances(model, groups, { parser, definesOf, bytesPerInstance: (bytes.byteLength + (lampBytes?.byteLength ?? 0)) / extension.count });
   }
 
   constructor({ clusters, rows }, groups, { parser, definesOf, bytesPerInstance }) {
@@ -161,9 +164,9 @@ export class PrtkitInstances {
     return this.transfers.get(mesh);
   }
 
-  /** Computes the constants of all instances from coefficients in the space of the bake. */
-  update(sky, suns) {
-    this.relighter.update(sky, suns, this.constantsTexture.image.data);
+  /** Computes the constants of all instances from coefficients in the space of the bake; see lightColumns. */
+  update(sky, suns, strengths) {
+    this.relighter.update(sky, suns, strengths, this.constantsTexture.image.data);
     this.constantsTexture.needsUpdate = true;
   }
 

@@ -112,12 +112,12 @@ export class PrtkitPlugin {
   async sharing(gltf, model, definesOf) {
     const { parser } = this;
     const extension = parser.json.extensions[INSTANCES];
-    expect(model.lamps.length === 0, "instances with shared transfer do not support lamps", INSTANCES);
-    const { bufferView } = extension.factors;
-    const bytes = (await this.viewsOf([bufferView], INSTANCES)).get(bufferView);
+    const views = [extension.factors, extension.lamps].filter(Boolean).map(({ bufferView }) => bufferView);
+    const loaded = await this.viewsOf(views, INSTANCES);
+    const [bytes, lampBytes] = views.map((view) => loaded.get(view));
     gltf.scene.updateMatrixWorld(true);
     putInstancesBack(parser.json, this.instances);
-    return PrtkitInstances.of(this.instances, { gltf, parser, model, extension, bytes, definesOf });
+    return PrtkitInstances.of(this.instances, { gltf, parser, model, extension, bytes, lampBytes, definesOf });
   }
 
   /** Returns the model of lobes that rotate with a skin. */

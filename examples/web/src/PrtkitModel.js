@@ -67,7 +67,7 @@ export class PrtkitModel extends LitSurfaces {
   update(sky, suns) {
     updateConstants(this.clusters, this.rows, this.columns(sky, suns), this.constantsTexture.image.data);
     this.constantsTexture.needsUpdate = true;
-    this.instances?.update(sky, suns);
+    this.instances?.update(sky, suns, this.lampStrengths());
     this.uniforms.prtSeparateSuns.value = suns !== null && this.hasDirectTerm;
   }
 

@@ -13,6 +13,10 @@ export const ADDED_BANDS = 2;
 export const ADDED_MODES = ADDED_BANDS ** 2;
 /** Number of factors of an instance: ten rows of four numbers, and four colours. */
 export const FACTORS = 4 * PASSING_MODES + 3 * ADDED_MODES;
+/** Functions of the incident light of a lamp at an instance: √(4π) Y of five bands. */
+export const LAMP_FUNCTIONS = 25;
+/** Number of values of this light, [LAMP_FUNCTIONS][3][4]: linear in the position, for each colour. */
+export const LAMP_NUMBERS = 12 * LAMP_FUNCTIONS;
 /** Scales the constant mode to 1. */
 const SCALE = Math.sqrt(4 * Math.PI);
 
@@ -66,16 +70,16 @@ export class InstanceModes {
   }
 }
 
-/** Returns the response of rows to the light of the reflected modes in their space, [rows][ADDED_MODES][3]. */
-export function responsesOf({ order, terms, rowCount }, rows) {
+/** Returns the response of rows to √(4π) Y in their space, [rows][functions][3]; the first are the reflected modes. */
+export function responsesOf({ order, terms, rowCount }, rows, functions = ADDED_MODES) {
   const count = order * order;
-  const responses = new Float64Array(3 * ADDED_MODES * rowCount);
+  const responses = new Float64Array(3 * functions * rowCount);
   let at = 0;
   for (let r = 0; r < rowCount; ++r)
     for (const { channels } of terms) {
-      for (let k = 0; k < Math.min(ADDED_MODES, count); ++k)
+      for (let k = 0; k < Math.min(functions, count); ++k)
         for (let c = 0; c < 3; ++c)
-          responses[3 * (ADDED_MODES * r + k) + c] += SCALE * rows[at + (channels === 3 ? c * count : 0) + k];
+          responses[3 * (functions * r + k) + c] += SCALE * rows[at + (channels === 3 ? c * count : 0) + k];
       at += channels * count;
     }
   return responses;

@@ -2,8 +2,8 @@
 // three reads them as nodes without a mesh, and InstancedMesh draws them.
 
 import { Matrix4, Quaternion, Vector3 } from "three";
-import { FACTORS } from "./instanceModes.js";
-import { checkInstanceNode, checkInstances, expect, INSTANCES } from "./wholeExtension.js";
+import { FACTORS, LAMP_NUMBERS } from "./instanceModes.js";
+import { checkInstanceNode, checkInstances, expect, INSTANCES, LARGEST_TRANSFER } from "./wholeExtension.js";
 
 const GPU = "EXT_mesh_gpu_instancing";
 /** Factors that transmit all light uniformly from above and below the horizon: 1 for an unoccluded instance; all others are 0. */
@@ -67,6 +67,25 @@ export function factorsOf({ count, factors: { scales } }, bytes) {
   for (let first = 0; first < factors.length; first += FACTORS)
     for (let j = 0; j < FACTORS; ++j) factors[first + j] = open[j] + scales[j] * steps[first + j];
   return factors;
+}
+
+/**
+ * Returns the light of `lamps` lamps at all instances, [count][lamps][LAMP_NUMBERS]; `bytes`: its buffer view,
+ * undefined without lamps.
+ */
+export function lampLightOf({ count, lamps: stored }, lamps, bytes) {
+  holds((stored?.count ?? 0) === lamps, `the instances have the light of ${stored?.count ?? 0} lamps, the transfer has ${lamps}`);
+  const light = new Float32Array(count * lamps * LAMP_NUMBERS);
+  if (lamps === 0) return light;
+  const size = 4 + LAMP_NUMBERS;
+  holds(bytes.byteLength === count * lamps * size, `the light of lamps does not have the size of ${count} instances`);
+  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+  for (let n = 0; n < count * lamps; ++n) {
+    const scale = view.getFloat32(n * size, true);
+    holds(scale >= 0 && scale <= LARGEST_TRANSFER, "a scale of the light of lamps is invalid");
+    for (let j = 0; j < LAMP_NUMBERS; ++j) light[n * LAMP_NUMBERS + j] = scale * view.getInt8(n * size + 4 + j);
+  }
+  return light;
 }
 
 /**

@@ -204,8 +204,9 @@ const LARGEST_SCALE = 500; // scale of a byte of factors
 export function checkInstances(extension) {
   const holds = (value, what) => expect(value, what, INSTANCES);
   holds(isObject(extension), "the extension is not an object");
-  const { version, count, factors, boxes } = extension;
-  holds(version === 2, `version ${version} is not supported, only 2; bake the model again`);
+  const { version, count, factors, boxes, lamps } = extension;
+  holds(version === 3, `version ${version} is not supported, only 3; bake the model again`);
+  holds(lamps === undefined || (isView(lamps) && isWhole(lamps.count, 1, 64)), "the lamps are invalid");
   holds(isWhole(count, 1, MOST_INSTANCES), `the count is not 1 to ${MOST_INSTANCES}`);
   holds(isView(factors), "factors are missing");
   const { scales } = factors;

@@ -52,15 +52,36 @@ export const PLACES = {
   SCALE: [0.5, 0.5, 0.5, 0.6, 0.6, 0.6, 0.4, 0.4, 0.4, 0.5, 0.5, 0.5],
 };
 
-/** Returns the file; `by`: see bakedModel; `change(json, binary)` may modify it. */
-export function instanceModel(by = "vertices", change = () => {}) {
+/** Names of the lamps of a model with lamps. */
+export const LAMPS = ["Lantern", "Fire"];
+
+/** Returns the light of the lamps at all instances, as a file has it: a scale and 300 bytes for each. */
+export function lampBytes() {
+  const next = random(23);
+  const data = new DataView(new ArrayBuffer(304 * COUNT * LAMPS.length));
+  for (let n = 0; n < COUNT * LAMPS.length; ++n) {
+    data.setFloat32(304 * n, 0.001 * (n + 1), true);
+    for (let j = 0; j < 300; ++j) data.setInt8(304 * n + 4 + j, Math.round(254 * next() - 127));
+  }
+  return new Uint8Array(data.buffer);
+}
+
+/** Returns number j (function, colour, and position) of the light of lamp `lamp` at instance `instance`. */
+export function lampNumber(instance, lamp, j) {
+  const data = new DataView(lampBytes().buffer);
+  const at = 304 * (LAMPS.length * instance + lamp);
+  return data.getFloat32(at, true) * data.getInt8(at + 4 + j);
+}
+
+/** Returns the file, without lamps or with LAMPS; `by`: see bakedModel; `change(json, binary)` may modify it. */
+export function instanceModel(by = "vertices", change = () => {}, lamps = []) {
   return bakedModel(by, (json, binary) => {
     const clusters = setIn(json, "vertices");
     const predictors = 3 * clusters.predictors.length;
     const next = random(7);
-    const row = (most, mean) => Array.from({ length: SIZE }, (_, a) => (mean && a % 4 === 0 ? 0.25 : 0) + most * (next() - 0.5));
+    const row = (most, mean) => Array.from({ length: SIZE + 3 * lamps.length }, (_, a) => (mean && a % 4 === 0 ? 0.25 : 0) + most * (next() - 0.5));
     const rows = COMPONENTS.flatMap((m) => [...row(0.05, true), ...Array.from({ length: predictors + m }, () => row(0.08, false)).flat()]);
-    Object.assign(clusters, { terms: PARTS, bases: { bufferView: binary.view(Float32Array.from(rows)), componentType: 5126 } });
+    Object.assign(clusters, { terms: [...PARTS, ...lamps.map((name) => ({ kind: "lamp", channels: 3, name }))], bases: { bufferView: binary.view(Float32Array.from(rows)), componentType: 5126 } });
     json.materials = json.materials.map(({ normalTexture: _, ...material }) => ({ ...material, emissiveFactor: [0, 0, 0] }));
     delete json.images;
     delete json.textures;
@@ -77,10 +98,11 @@ export function instanceModel(by = "vertices", change = () => {}) {
     json.scenes = [{ nodes: [0, 1, 2] }];
     json.extensionsUsed.push("EXT_mesh_gpu_instancing", "PRTKIT_instances");
     json.extensions.PRTKIT_instances = {
-      version: 2,
+      version: 3,
       count: COUNT,
       factors: { bufferView: binary.view(bytes()), scales: SCALES },
       boxes: BOXES,
+      ...(lamps.length > 0 && { lamps: { count: lamps.length, bufferView: binary.view(lampBytes()) } }),
     };
     change(json, binary);
   });

@@ -8,7 +8,7 @@ import { PrtkitPlugin, ShLight } from "../src/PrtkitLoader.js";
 import { evaluateSh, gaussLegendre } from "../src/sphericalHarmonics.js";
 import { PrtkitPlugin as NodePlugin } from "../src/webgpu.js";
 import { texelSet } from "./bakedModel.js";
-import { BOXES, bytes, COUNT, factors, instanceModel, PLACES, SCALES } from "./instanceModel.js";
+import { BOXES, bytes, COUNT, factors, instanceModel, lampBytes, lampNumber, LAMPS, PLACES, SCALES } from "./instanceModel.js";
 import { addSet, setIn } from "./transferSets.js";
 
 const load = (file, Plugin = PrtkitPlugin) => {
@@ -153,7 +153,7 @@ function shaded(prtkit, mesh, i, v) {
  * Returns the expected result from the transfer of the vertex and the lights of the modes: docs/format.md,
  * PRTKIT_instances.
  */
-function expectedOf(prtkit, mesh, v, modes, numbers, box) {
+function expectedOf(prtkit, mesh, v, modes, numbers, box, lampOf = () => 0) {
   const { clusters } = prtkit;
   const { order, predictors, components, firstRows, rows, widths } = clusters;
   const { attributes } = mesh.geometry;
@@ -188,19 +188,26 @@ function expectedOf(prtkit, mesh, v, modes, numbers, box) {
         result[c] += factor * (vector[i] * sky[3 * i + c] + vector[count * (1 + c) + i] * both[3 * i + c]);
     }
   });
+  for (let i = 0; i < count; ++i)
+    for (let c = 0; c < 3; ++c)
+      for (let k = 0; k < 4; ++k)
+        result[c] += Math.sqrt(4 * Math.PI) * (vector[i] + vector[count * (1 + c) + i]) * point[k] * lampOf(c, 12 * i + 4 * c + k);
   return result;
 }
 
-for (const by of ["vertices", "weights"])
-  test(`instances are lit as docs/format.md defines: ${by}`, async () => {
-    const { scene, userData } = await load(instanceModel(by));
+for (const [by, lamps] of [["vertices", []], ["weights", []], ["vertices", LAMPS]])
+  test(`instances are lit as docs/format.md defines: ${by}, ${lamps.length} lamps`, async () => {
+    const { scene, userData } = await load(instanceModel(by, undefined, lamps));
+    const strengths = { Lantern: [0.5, 2, 1], Fire: 3 };
+    const lampOf = (number) => (c, j) =>
+      lamps.reduce((sum, name, l) => sum + (strengths[name][c] ?? strengths[name]) * lampNumber(number, l, j), 0);
     const { prtkit } = userData;
     const { meshes } = prtkit.instances;
     assert.deepEqual(meshes.map(({ count }) => count), [4, 2]);
     const [sky, suns] = [lightOf(2, 3), lightOf(2, 5)];
     const numbers = factors();
     for (const separate of [null, suns]) {
-      prtkit.setLight(sky, 0.3, separate);
+      prtkit.setLight(sky, 0.3, separate, lamps.length > 0 ? strengths : {});
       const lights = [sky.coefficients(0.3), separate?.coefficients(0.3) ?? null];
       let number = 0;
       for (const [m, mesh] of meshes.entries())
@@ -212,7 +219,7 @@ for (const by of ["vertices", "weights"])
           const rotated = number === 2; // between bins of yaw: by 0.8 degrees
           for (let v = 0; v < mesh.geometry.attributes.position.count; v += 97) {
             const own = numbers.slice(52 * number, 52 * (number + 1));
-            const [value, expected] = [shaded(prtkit, mesh, i, v), expectedOf(prtkit, mesh, v, modes, own, BOXES[m])];
+            const [value, expected] = [shaded(prtkit, mesh, i, v), expectedOf(prtkit, mesh, v, modes, own, BOXES[m], lampOf(number))];
             expected.forEach((x, c) => near(value[c], x, rotated ? 0.03 : 1e-5, `instance ${number}, vertex ${v}`));
           }
         }
@@ -381,7 +388,9 @@ for (const [what, change, message] of [
   ["too many instances", (json) => (json.accessors = undefined, gpuOf(json).SCALE = -1), /node 1 has no instances, or more/],
   ["a lamp", (json) => {
     setIn(json, "vertices").terms = [{ kind: "indirect", channels: 3 }, ...[0, 1, 2, 3].map((i) => ({ kind: "lamp", channels: 1, name: `lamp ${i}` }))];
-  }, /do not support lamps/],
+  }, /have the light of 0 lamps, the transfer has 4/],
+  ["fewer lamps", (json, binary) => (json.extensions.PRTKIT_instances.lamps = { count: 1, bufferView: binary.view(lampBytes()) }), /have the light of 1 lamps, the transfer has 0/],
+  ["lamps without a view", (json) => (json.extensions.PRTKIT_instances.lamps = { count: 1 }), /the lamps are invalid/],
   ["texels", (json, binary) => {
     json.images = [];
     addSet(json, texelSet(json, binary));
