@@ -346,7 +346,7 @@ const nodeOf = (json, n = 1) => json.nodes[n].extensions.PRTKIT_instances;
 const gpuOf = (json) => json.nodes[1].extensions.EXT_mesh_gpu_instancing.attributes;
 
 for (const [what, change, message] of [
-  ["another version", (json) => (extensionOf(json).version = 1), /version 1 is not supported, only 2/],
+  ["another version", (json) => (extensionOf(json).version = 1), /version 1 is not supported, only 3/],
   ["not an object", (json) => (json.extensions.PRTKIT_instances = []), /is not an object/],
   ["a count of zero", (json) => (extensionOf(json).count = 0), /the count is not 1 to/],
   ["a count that is too large", (json) => (extensionOf(json).count = 1e7), /the count is not 1 to/],
