@@ -3,9 +3,13 @@
 #include "prt/gltf/gltf.h"
 
 #include "prt/core/error.h"
+#include "prt/gltf/transfer_gltf.h"
 #include "support/glb_file.h"
+#include "support/lightmap_model.h"
 #include "support/predicted.h"
+#include "support/random_volume.h"
 #include "support/temporary_folder.h"
+#include "support/volume_model.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -350,7 +354,7 @@ TEST(TransferInGltf, DamagedPackedTransferIsRejected) {
 TEST(TransferInGltf, DamagedTransferIsRejected) {
     const Damage read_changed(WeightFormat::float32);
     EXPECT_NO_THROW(read_changed([](auto&) {}));
-    EXPECT_THROW(read_changed([&](auto& j) { extension(j)["version"] = 99; }), Error);
+    EXPECT_THROW(read_changed([&](auto& j) { j["extensions"]["PRTKIT_transfer"]["version"] = 99; }), Error);
     EXPECT_THROW(read_changed([&](auto& j) { extension(j)["order"] = 11; }), Error);
     EXPECT_THROW(read_changed([&](auto& j) { extension(j)["terms"][0]["channels"] = 2; }), Error);
     EXPECT_THROW(read_changed([&](auto& j) { extension(j)["bake"]["method"] = "guess"; }), Error);
@@ -445,7 +449,11 @@ TEST(TransferInGltf, SchemaViolationsAreRejected) {
         return extension(j)["bases"];
     };
     const std::function<void(nlohmann::ordered_json&)> changes[] = {
-        [&](auto& j) { extension(j)["version"] = 2.5; },
+        [&](auto& j) { j["extensions"]["PRTKIT_transfer"]["version"] = 2.5; },
+        [&](auto& j) { j["extensions"]["PRTKIT_transfer"]["sets"] = 3; },
+        [&](auto& j) { j["extensions"]["PRTKIT_transfer"]["sets"].push_back(extension(j)); },
+        [&](auto& j) { extension(j)["receivers"] = 3; },
+        [&](auto& j) { extension(j)["coding"] = nullptr; },
         [&](auto& j) { extension(j)["order"] = 3.5; },
         [&](auto& j) { extension(j)["terms"][0]["channels"] = 3.5; },
         [&](auto& j) { extension(j)["terms"][0]["kind"] = "lamp"; },
@@ -485,6 +493,76 @@ TEST(TransferInGltf, SchemaViolationsAreRejected) {
         [&](auto& j) { extension(j)["bake"]["samplingError"] = nullptr; }};
     for (std::size_t i = 0; i < std::size(changes); ++i)
         EXPECT_THROW(read_changed(changes[i]), Error) << i;
+}
+
+/// Vertices, texels and probes in one file: each set is read, and removed, without the others.
+TEST(TransferInGltf, SetsOfAllReceiversShareAFile) {
+    std::mt19937 random(5);
+    const BakedLightmap lightmap =
+        test::made_up_lightmap(test::layout_of_floor({8, 6}, {5, 4}), layout_of_one(2, 1), random);
+    const CompressedVolume volume = test::random_volume(2, false, random);
+    GlbFile file = test::with_volume(test::with_lightmap(test::mapped_floor(2), lightmap), volume);
+    const auto parsed = [&] {
+        const std::string bytes = file.bytes();
+        return parse_gltf(std::as_bytes(std::span(bytes)), "floor.glb");
+    };
+    const Scene scene = extract_scene(parsed());
+    const BakedTransfer vertices = random_bake(scene, 3, 1);
+    for (std::size_t p = 0; p < scene.primitives.size(); ++p) {
+        const VertexArray& array = scene.vertex_arrays[scene.primitives[p].vertices];
+        const std::size_t dimension = vertices.transfer.dimension();
+        const auto vectors = std::span(vertices.transfer.vectors)
+                                 .subspan(array.first_receiver * dimension, array.size() * dimension);
+        const std::size_t view = file.view(std::as_bytes(vectors));
+        file.json["meshes"][0]["primitives"][p]["extensions"]["PRTKIT_transfer"]["vectors"] = {
+            {"bufferView", view}};
+    }
+    file.json["extensions"]["PRTKIT_transfer"]["sets"].push_back(
+        {{"receivers", "vertices"},
+         {"coding", "raw"},
+         {"order", 3},
+         {"terms", {{{"kind", "combined"}, {"channels", 1}}}}});
+    file.json.erase("buffers");
+    GltfDocument all = parsed();
+    EXPECT_EQ(read_transfer(all, scene)->transfer.vectors, vertices.transfer.vectors);
+    EXPECT_EQ(read_lightmap(all, scene)->baked.transfer.vectors, lightmap.baked.transfer.vectors);
+    EXPECT_EQ(read_compressed_volume(all, scene)->compressed.transfer.receivers.weights,
+              volume.compressed.transfer.receivers.weights);
+    discard_volume(all);
+    EXPECT_EQ(read_transfer(all, scene)->transfer.vectors, vertices.transfer.vectors);
+    EXPECT_EQ(read_lightmap(all, scene)->texels, lightmap.texels);
+    EXPECT_FALSE(read_compressed_volume(all, scene));
+    all = parsed();
+    discard_transfer(all);
+    EXPECT_FALSE(read_transfer(all, scene));
+    EXPECT_FALSE(read_lightmap(all, scene));
+    EXPECT_TRUE(read_compressed_volume(all, scene));
+    discard_volume(all);
+    const test::TemporaryFolder folder;
+    save_glb(all, folder / "none.glb");
+    EXPECT_EQ(test::read_glb(folder / "none.glb").json.dump().find("PRTKIT"), std::string::npos);
+}
+
+/// Transfer of a former version: readers refuse it with a remedy, but a bake can replace it.
+TEST(TransferInGltf, FormerTransferIsReplaced) {
+    const test::TemporaryFolder folder;
+    GlbFile file = test::triangle_file();
+    const std::size_t view = file.view(std::vector<std::byte>(36));
+    file.json["extensions"]["PRTKIT_transfer"] = {
+        {"version", 5}, {"order", 1}, {"terms", {{{"kind", "combined"}, {"channels", 1}}}}};
+    file.json["extensions"]["PRTKIT_transfer_volume"] = {{"version", 2}, {"bricks", {{"bufferView", view}}}};
+    file.json["meshes"][0]["primitives"][0]["extensions"]["PRTKIT_transfer"]["vectors"] = {
+        {"bufferView", view}};
+    file.json["extensionsUsed"] = {"PRTKIT_transfer", "PRTKIT_transfer_volume"};
+    file.write(folder / "former.glb");
+    GltfDocument document = load_gltf(folder / "former.glb");
+    const Scene scene = extract_scene(document);
+    EXPECT_THROW(read_transfer(document, scene), Error);
+    write_transfer(document, scene, random_bake(scene, 1, 1));
+    save_glb(document, folder / "now.glb");
+    EXPECT_TRUE(read_transfer(load_gltf(folder / "now.glb"), scene));
+    EXPECT_EQ(test::read_glb(folder / "now.glb").json.dump().find("PRTKIT_transfer_volume"),
+              std::string::npos);
 }
 
 TEST(TransferInGltf, DecodedBasesAreFinite) {
