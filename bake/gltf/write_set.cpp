@@ -26,6 +26,8 @@ Json record_json(const BakeRecord& record) {
         json["endless"] = true;
     if (record.fitted)
         json["fitted"] = true;
+    if (!record.media.empty())
+        json["media"] = record.media;
     return json;
 }
 

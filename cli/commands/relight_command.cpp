@@ -181,7 +181,7 @@ void run(RelightArguments a, Session& session) {
         return load_textures(model.scene, a.reading.bad_textures,
                              needs_colors ? TextureNeeds::all : TextureNeeds::shadows);
     });
-    const std::vector<bool> solid = solid_materials(model);
+    const std::vector<bool> solid = solid_materials(model.scene);
     ProgressBar bar = session.progress_bar("relighting");
     const bool suns_are_separate = !light.split.suns.empty() && layout_of(model).has(TermKind::direct);
     const Lighting lighting{light.sky, light_of_suns(light), lamp_strengths(a.lamps, layout_of(model))};
@@ -229,7 +229,6 @@ void add_relight(CLI::App& app, Session& session) {
     add_suns(command, a.suns,
              std::string("number of suns of --lights with sharp shadows, traced by rays\n"
                          "needs --lights\n"
-                         "after prt bake --subsurface and prt compress: use 0; media get this light twice\n"
                          "after prt compress --combine-direct: only 0, and auto acts as 0\n") +
                  kSunsOfLightFiles,
              "auto", &a.rays);

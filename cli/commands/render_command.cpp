@@ -96,11 +96,10 @@ constexpr Choice<ToneMap> kToneMaps[] = {
 constexpr Choice<Backend> kDevices[] = {
     {"auto", Backend::automatic,
      "a hardware GPU with OpenGL 4.5 if there is one, else the CPU\n"
-     "  the CPU also if --suns separates more than 4 suns, or any after prt bake --subsurface"},
+     "  the CPU also if --suns separates more than 4 suns"},
     {"cpu", Backend::cpu, "the CPU, by casting rays"},
     {"gpu", Backend::gpu,
-     "OpenGL 4.5 on a GPU, or on a software driver; more than 4 suns of --suns are an error\n"
-     "  after prt bake --subsurface: --suns only 0, and auto acts as 0"}};
+     "OpenGL 4.5 on a GPU, or on a software driver; more than 4 suns of --suns are an error"}};
 
 constexpr int kUnshadowedOrder = 6;
 
@@ -123,31 +122,21 @@ std::unique_ptr<GlContext> choose_backend(Backend backend, bool shadows_on_cpu) 
     return context;
 }
 
-/// True if a material has a medium that glTF does not describe: OpenGL's renderer would add its suns twice.
-bool has_unnamed_media(const SceneFile& model, const std::vector<bool>& solid) {
-    for (std::size_t m = 0; m < solid.size(); ++m)
-        if (solid[m] && !has_medium(model.scene.materials[m]))
-            return true;
-    return false;
-}
-
 /// Returns the reason why suns cannot be separate from the sky, with advice; empty if they can. A model
 /// without transfer has only direct light.
-std::string why_together(const RenderArguments& a, const SceneFile& model, const std::vector<bool>& solid) {
+std::string why_together(const RenderArguments& a, const SceneFile& model) {
     if (model.record() && layout_of(model).has(TermKind::combined))
         return a.model.string() + ": " + kNoDirectTerm;
-    if (a.backend == Backend::gpu && has_unnamed_media(model, solid))
-        return "--device gpu does not support media of --subsurface with separate suns; use --device cpu";
     return {};
 }
 
 /// Loads the light, with separate suns if possible and requested.
-LoadedLight load_lit(const RenderArguments& a, const SceneFile& model, const std::vector<bool>& solid) {
+LoadedLight load_lit(const RenderArguments& a, const SceneFile& model) {
     const int order = model.order() > 0 ? model.order() : kUnshadowedOrder;
     if (a.environment.empty())
         return dark_sky(order);
     const bool lit = a.drawn_lit() || a.look.show == Show::error;
-    const std::string why = lit ? why_together(a, model, solid) : "";
+    const std::string why = lit ? why_together(a, model) : "";
     if (!why.empty() && a.lights.suns.count.value_or(0) > 0)
         throw Error(why + ", or light it with --suns 0");
     LoadedLight light =
@@ -542,9 +531,9 @@ void run(RenderArguments a, Session& session) {
         check_outputs({{a.output, "--output", {".png", ".exr"}, true}, {a.json, "--json", {".json"}}},
                       {a.model, a.environment, a.lights.lamps.file, a.baked});
     const SceneFile model = load_model(a);
-    const std::vector<bool> solid = solid_materials(model);
+    const std::vector<bool> solid = solid_materials(model.scene);
     note_media(a, solid);
-    const LoadedLight light = load_lit(a, model, solid);
+    const LoadedLight light = load_lit(a, model);
     const Lighting lighting = lighting_of(a, model, light);
     note_lights(a, model, lighting);
     const bool suns = !light.split.suns.empty() && a.drawn_lit();
@@ -560,9 +549,7 @@ void run(RenderArguments a, Session& session) {
     const std::unique_ptr<Shown> shown = show(a, model, lighting, light, picture);
     const bool draws = !a.traced() || a.error() == ErrorOf::traced;
     const std::unique_ptr<GlContext> context =
-        draws ? choose_backend(a.backend, suns && (picture.suns.size() > kMaxShadowedSuns ||
-                                                   has_unnamed_media(model, solid)))
-              : nullptr;
+        draws ? choose_backend(a.backend, suns && picture.suns.size() > kMaxShadowedSuns) : nullptr;
     if (context)
         light_on_gpu(a, model, lighting, *shown, picture);
     const Light all_light = lighting.suns ? sum(lighting.sky, *lighting.suns) : lighting.sky;
@@ -654,14 +641,11 @@ void add_render(CLI::App& app, Session& session) {
     add_look(command, a);
     add_light_options(command, a.light_options);
     add_suns(command, a.lights.suns,
-             std::string(
-                 "number of suns of --lights that are drawn with sharp shadows\n"
-                 "needs --lights; no effect on --show clusters and ao, and on path-traced pictures\n"
-                 "more than 4 suns, or any after prt bake --subsurface: drawn by the CPU\n"
-                 "  --device gpu: more than 4 are an error; after --subsurface only 0, and auto acts as 0\n"
-                 "after prt bake --subsurface and prt compress: use 0; media get the light of suns twice\n"
-                 "--show error --baked: the direct light of these suns is not part of the error\n"
-                 "after prt compress --combine-direct or prt lobes: only 0, and auto acts as 0\n") +
+             std::string("number of suns of --lights that are drawn with sharp shadows\n"
+                         "needs --lights; no effect on --show clusters and ao, and on path-traced pictures\n"
+                         "more than 4 suns: drawn by the CPU; with --device gpu an error\n"
+                         "--show error --baked: the direct light of these suns is not part of the error\n"
+                         "after prt compress --combine-direct or prt lobes: only 0, and auto acts as 0\n") +
                  kSunsOfLightFiles,
              "auto", &a.lights.sun_rays);
     command->get_option("--suns")->needs("--lights");

@@ -291,7 +291,7 @@ public:
                                          return load_textures(model_.scene, a_.reading.bad_textures,
                                                               TextureNeeds::visibility);
                                      }),
-                               {.solid = solid_materials(baked_), .threads = a_.threads});
+                               {.solid = solid_materials(baked_.scene), .threads = a_.threads});
         const Lighting lighting = judged(light);
         Lighting drawn = lighting;
         drawn.sky = deringed(drawn.sky);

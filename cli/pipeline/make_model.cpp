@@ -68,10 +68,7 @@ public:
         : r_(request), host_(host), document_(load_gltf(request.scene, request.reading)),
           scene_(extract_scene(document_)), lights_(std::move(lights)) {
         send(host_.notify, r_.scene, scene_.notices);
-        std::vector<bool> solid;
-        for (const Material& material : scene_.materials)
-            solid.push_back(medium_of(material).has_value());
-        check_no_media(scene_, solid);
+        check_no_media(scene_, solid_materials(scene_));
         leave_out_shadows(scene_, r_.no_shadow);
         separate();
     }

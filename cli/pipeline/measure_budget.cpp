@@ -64,7 +64,7 @@ void measure(const BudgetRequest& request, const SceneFile& baked, const SceneFi
 
 void add_budget(BudgetRequest request, SceneFile& baked, Report& report, const Host& host) {
     about(request.baked, [&] {
-        check_no_media(baked.scene, solid_materials(baked));
+        check_no_media(baked.scene, solid_materials(baked.scene));
         leave_out_shadows(baked.scene, request.no_shadow);
     });
     std::optional<SceneFile> shipped;

@@ -6,6 +6,7 @@
 #include "prt/gltf/levels.h"
 #include "prt/load/light_file.h"
 #include "prt/render/lightmap_file.h"
+#include "runtime/load/light_passing.h"
 #include "runtime/support/counted.h"
 
 #include <glm/geometric.hpp>
@@ -104,6 +105,8 @@ SceneFile scene_file_of(GltfDocument document, const Path& path, const Notify& n
                    .baked = std::move(baked),
                    .compressed = std::move(compressed),
                    .lightmap = std::move(lightmap)};
+    if (file.record())
+        mark_media(file.scene, *file.record());
     file.volume = read_volume(file.document, file.scene);
     file.compressed_volume = read_compressed_volume(file.document, file.scene);
     file.occluders = read_occluders(file.document);

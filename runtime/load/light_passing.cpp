@@ -19,4 +19,14 @@ bool has_medium(const Material& material) {
            std::isfinite(volume.attenuation_distance) && volume.attenuation_distance > 0;
 }
 
+bool lit_through_medium(const Material& material) {
+    return material.baked_medium || has_medium(material);
+}
+
+void mark_media(Scene& scene, const BakeRecord& record) {
+    for (std::size_t m = 0; m < scene.materials.size(); ++m)
+        scene.materials[m].baked_medium =
+            std::ranges::find(record.media, lamp_name(scene, m)) != record.media.end();
+}
+
 } // namespace prt

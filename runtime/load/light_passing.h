@@ -2,6 +2,7 @@
 
 // Transmission of light by materials. Experimental.
 
+#include "prt/core/baked_transfer.h"
 #include "prt/load/scene.h"
 
 namespace prt {
@@ -15,5 +16,12 @@ float glass_transmittance(const Material& material);
 /// transmission factor above 0, through which light enters, a thickness above 0, and a finite attenuation
 /// distance above 0. If false, diffuse transmission is that of a thin sheet.
 bool has_medium(const Material& material);
+
+/// Returns whether all light passes through a medium below the surface: `has_medium`, or
+/// Material::baked_medium. Separate suns light such a surface only through transfer.
+bool lit_through_medium(const Material& material);
+
+/// Sets Material::baked_medium of the materials of `scene` from the record of its transfer.
+void mark_media(Scene& scene, const BakeRecord& record);
 
 } // namespace prt

@@ -14,6 +14,7 @@
 #include "runtime/load/geometry.h"
 #include "runtime/load/glb.h"
 #include "runtime/load/json_text.h"
+#include "runtime/load/light_passing.h"
 #include "runtime/load/lobe_transfer.h"
 #include "runtime/load/meshopt_views.h"
 #include "runtime/load/occluder_nodes.h"
@@ -115,6 +116,8 @@ Model read_contents(GltfData& data) {
     model.scene = extract_geometry(data, range).scene;
     model.instances = placed_instances(std::move(instances), model.scene, data.file_bytes);
     model.vertices = read_clustered(data, model.scene);
+    if (model.vertices)
+        mark_media(model.scene, model.vertices->record);
     model.lightmap = read_encoded_lightmap(data, model.scene,
                                            data.json.contains("images") ? data.json["images"].size() : 0,
                                            [&](std::size_t image) { return image_bytes(data, image); });

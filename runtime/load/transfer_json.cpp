@@ -88,6 +88,7 @@ BakeRecord read_record(const Json& json) {
     record.sampling_error = json.value("samplingError", 0.0);
     record.endless = json.value("endless", false);
     record.fitted = json.value("fitted", false);
+    record.media = json.value("media", std::vector<std::string>());
     if (!(record.sampling_error >= 0))
         throw Error("samplingError of the bake is negative");
     return record;

@@ -168,6 +168,7 @@ export class PrtkitPlugin {
   /** Assigns transfer to the meshes of `gltf`. `of(mesh, primitive)` returns their transfer. */
   convert(gltf, model, of) {
     const { json, associations } = this.parser;
+    const media = this.sets.vertices?.bake?.media ?? []; // materials with media that their extensions do not describe
     for (const scene of gltf.scenes) {
       scene.updateMatrixWorld(true); // matrices of the file
       scene.traverse((object) => {
@@ -178,8 +179,9 @@ export class PrtkitPlugin {
         if (!transfer) return;
         const number = primitive?.material;
         const gltfMaterial = json.materials?.[number];
-        const traits = model.hasDirectTerm ? sunTraits(gltfMaterial) : null;
-        const strength = model.strengthOf(gltfMaterial?.name || `material ${number}`);
+        const name = gltfMaterial?.name || `material ${number}`;
+        const traits = model.hasDirectTerm ? sunTraits(gltfMaterial, media.includes(name)) : null;
+        const strength = model.strengthOf(name);
         object.material = this.materialOf(object.material, {
           ...transfer,
           uniforms: { ...model.uniforms, ...transfer.uniforms, prtStrength: strength },

@@ -5,14 +5,14 @@ import { addLobes, addTransfer, addVolume, PACKED_SHADOW_MAPS } from "./transfer
 
 /**
  * Returns the treatment of suns by a material of the glTF: { lit, transmission, casts }. A medium has all of
- * its light from transfer; shadow maps store one depth, so that glass and blended surfaces cast no shadow.
+ * its light from transfer (`isMedium`: a bake has added it); shadow maps store one depth, so that glass and blended surfaces cast no shadow.
  */
-export function sunTraits(gltfMaterial) {
+export function sunTraits(gltfMaterial, isMedium = false) {
   const extensions = gltfMaterial?.extensions ?? {};
   const through = extensions.KHR_materials_diffuse_transmission;
   const volume = extensions.KHR_materials_volume;
   const factor = through?.diffuseTransmissionFactor ?? 0;
-  const medium = factor > 0 && volume?.thicknessFactor > 0 && volume.attenuationDistance > 0;
+  const medium = isMedium || (factor > 0 && volume?.thicknessFactor > 0 && volume.attenuationDistance > 0);
   const color = through?.diffuseTransmissionColorFactor ?? [1, 1, 1];
   const glass = (extensions.KHR_materials_transmission?.transmissionFactor ?? 0) > 0;
   return {

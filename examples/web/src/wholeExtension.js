@@ -152,11 +152,13 @@ function checkProbes(set, holds) {
 const CHECKS = new Map([["vertices", () => {}], ["texels", checkTexels], ["probes", checkProbes]]);
 
 function checkSet(set, images) {
-  const { receivers, coding, order, terms } = set;
+  const { receivers, coding, order, terms, bake } = set;
   const holds = (value, what) => expect(value, what, nameOf(receivers));
   holds(coding !== "raw", "the file is an uncompressed bake; compress it: prt compress baked.glb -o shipped.glb");
   holds(coding === "clustered", "the coding is neither raw nor clustered");
   holds(isWhole(order, 1, 10) && areTerms(terms), "order or terms are invalid");
+  const media = bake?.media ?? [];
+  holds(Array.isArray(media) && media.every((name) => typeof name === "string"), "the media of the bake are not a list of names");
   holds(terms.every(({ towards }) => towards === undefined), 'a lamp term has "towards", because older versions stored suns as lamps; bake the scene again');
   checkClusters(set, holds);
   CHECKS.get(receivers)(set, holds, images);

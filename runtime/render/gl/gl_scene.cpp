@@ -210,7 +210,7 @@ void GlScene::prepare_for_suns(const GlObject& program, const Primitive& primiti
     const bool thin = transmission.factor > 0;
     const GlObject* factor = thin ? texture_of(transmission.factor_texture, vertices) : nullptr;
     const GlObject* tint = thin ? texture_of(transmission.color_texture, vertices) : nullptr;
-    glUniform1i(uniform(program, "sunlit"), !has_medium(material));
+    glUniform1i(uniform(program, "sunlit"), !lit_through_medium(material));
     glUniform1f(uniform(program, "transmission_factor"), transmission.factor);
     glUniform3fv(uniform(program, "transmission_tint"), 1, glm::value_ptr(transmission.color));
     glUniform1i(uniform(program, "has_transmission_factor"), factor != nullptr);

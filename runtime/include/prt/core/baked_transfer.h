@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace prt {
 
@@ -47,6 +48,9 @@ struct BakeRecord {
     /// Estimated relative L2 error of transfer vectors by the limited number of rays, weighted by area: of
     /// direct light, or of all light of the sky if the bake filtered noise. 0: not estimated.
     double sampling_error = 0;
+    /// Names of the materials, or "material N", whose light passes through a medium that the file does not
+    /// describe (prt bake --subsurface): separate suns light them only through transfer.
+    std::vector<std::string> media = {};
     /// True: vertex values are a surface fit (docs/terminology.md). False: light measured at the receivers.
     bool fitted = false;
 };

@@ -112,6 +112,9 @@ struct Material {
     Glass glass;                      ///< specular transmission; default: none
     MaterialVolume volume;            ///< medium below the surface; default: none
     Emission emission;                ///< emitted light; default: none
+    /// Whether transfer contains light that passes through a medium which the file does not describe
+    /// (BakeRecord::media). Functions that read transfer set it.
+    bool baked_medium = false;
 };
 
 /// Vertices of one primitive, or of several primitives of one node that share them. Each vertex is a

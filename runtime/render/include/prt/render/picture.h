@@ -55,8 +55,8 @@ struct Picture {
     /// Transfer or lightmaps that replace `radiance`; by default not set.
     LitInShader in_shader;
     /// Suns whose direct light is not included in `radiance`. The renderer adds this light at each pixel,
-    /// with shadows, except on surfaces with a medium (`has_medium`): all of their sun light is indirect.
-    /// Empty: no suns. The OpenGL renderer supports at most kMaxShadowedSuns suns.
+    /// with shadows, except on surfaces with a medium (`lit_through_medium`): all of their sun light is
+    /// indirect. Empty: no suns. The OpenGL renderer supports at most kMaxShadowedSuns suns.
     std::span<const Sun> suns = {};
 
     /// [materials] factor on Emission::radiance; empty: surfaces emit no light.
