@@ -134,13 +134,13 @@ export function weightsAt({ grid, visibility }, position, normal) {
     const corner = low.map((x, a) => x + step[a]);
     const probe = ofBrick[125 * b + (corner[2] * 5 + corner[1]) * 5 + corner[0]];
     const trilinear = step.reduce((product, s, a) => product * (s ? at[a] - low[a] : 1 - at[a] + low[a]), 1);
-    const passed = biased.reduce((sum, x, a) => {
+    const passed = biased.reduce((largest, x, a) => {
       const from = x - (origin[a] + spacing * corners[3 * probe + a]);
       const distance = visibility[6 * probe + 2 * a + (from > 0 ? 1 : 0)];
-      return sum + Math.abs(from) / Math.max(4 * spacing * 2 ** levels[probe] * (distance / 255) ** 2, 1e-18);
+      return Math.max(largest, Math.abs(from) / Math.max(4 * spacing * 2 ** levels[probe] * (distance / 255) ** 2, 1e-18));
     }, 0);
-    const t = clamp((passed - 0.9) / 0.3, 0, 1);
-    return [probe, trilinear * Math.max(1 - t * t * (3 - 2 * t), 1e-4)];
+    const t = clamp((passed - 0.8) / 0.23, 0, 1);
+    return [probe, trilinear * Math.max(1 - t * t * (3 - 2 * t), 1e-4 / clamp(passed, 1, 16) ** 8)];
   });
   const sum = found.reduce((total, [, weight]) => total + weight, 0);
   return found.map(([probe, weight]) => [probe, weight / sum]);
