@@ -10,8 +10,6 @@
 namespace prt {
 namespace {
 
-constexpr std::size_t kMaxOutputs = 16;
-
 template <WeightFormat Format>
 [[gnu::always_inline]] inline Color sum_of_weights(const ClusteredReceivers& receivers,
                                                    const ClusterLayout& layout, const std::byte* from,
@@ -78,15 +76,29 @@ void evaluate_in_lanes(const ClusteredReceivers& receivers, const ClusterLayout*
     }
 }
 
+template <std::size_t Outputs>
+[[gnu::always_inline]] inline void evaluate_each(const ClusteredReceivers& receivers,
+                                                 const ClusterLayout* layouts, const glm::vec4* constants,
+                                                 std::size_t begin, std::size_t end, glm::vec3* radiance) {
+    for (std::size_t p = begin; p < end; ++p) {
+        Color sums[Outputs];
+        sum_outputs(receivers, layouts, constants, p, sums);
+        for (const Color& sum : sums)
+            *radiance++ = {sum[0], sum[1], sum[2]};
+    }
+}
+
 /// Evaluates every output of receivers [begin, end), whose weights are packed.
 PRT_TARGET_CLONES
 void evaluate_outputs(const ClusteredReceivers& receivers, const ClusterLayout* layouts, std::size_t outputs,
                       const glm::vec4* constants, std::size_t begin, std::size_t end, glm::vec3* radiance) {
-    for (std::size_t p = begin; p < end; ++p) {
-        Color sums[kMaxOutputs];
-        sum_outputs(receivers, layouts, outputs, constants, p, sums);
-        for (std::size_t o = 0; o < outputs; ++o)
-            radiance[(p - begin) * outputs + o] = {sums[o][0], sums[o][1], sums[o][2]};
+    switch (outputs) {
+    case 4:
+        return evaluate_each<4>(receivers, layouts, constants, begin, end, radiance);
+    case 9:
+        return evaluate_each<9>(receivers, layouts, constants, begin, end, radiance);
+    default:
+        return evaluate_each<16>(receivers, layouts, constants, begin, end, radiance);
     }
 }
 

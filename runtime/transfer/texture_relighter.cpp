@@ -94,8 +94,9 @@ template <std::size_t Outputs>
 [[gnu::always_inline]] inline void light_probe(const Probes& probes, const glm::vec4* constants,
                                                std::size_t p, float* numbers) {
     Color sums[Outputs];
-    sum_outputs(probes.receivers, probes.clusters, Outputs, constants, p, sums);
+    sum_outputs(probes.receivers, probes.clusters, constants, p, sums);
     const float sun = sums[0][3];
+#pragma GCC unroll 16
     for (std::size_t o = 0; o < Outputs; ++o) // the next color overwrites the fourth number
         *reinterpret_cast<ColorInMemory*>(numbers + 3 * o) = sums[o];
     numbers[3 * Outputs] = sun > 0 ? std::min(sun, 1.0f) : 0.0f;
