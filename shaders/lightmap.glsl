@@ -1,4 +1,4 @@
-// Exit radiance for albedo 1 from a lightmap that prt_lightmap.comp computed.
+// Exit radiance for albedo 1 from a lightmap that prt_texels.comp computed.
 
 #include "shared_layout.h"
 

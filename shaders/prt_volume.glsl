@@ -38,7 +38,7 @@
 #define PRT_VOLUME_SAMPLER(number) uniform highp
 #endif
 
-// Textures as defined in prt/core/volume_relighter.h.
+// Textures as defined in prt/core/transfer_volume.h.
 PRT_VOLUME_SAMPLER(PRT_UNIT_VOLUME_LIGHT) sampler3D prt_volume_light;
 PRT_VOLUME_SAMPLER(PRT_UNIT_VOLUME_VISIBILITY) usampler3D prt_volume_visibility;
 PRT_VOLUME_SAMPLER(PRT_UNIT_VOLUME_INDEX) usampler3D prt_volume_index;

@@ -65,8 +65,7 @@
 #define PRT_UNIT_OCCLUDERS 18
 
 // Images.
-#define PRT_IMAGE_LIGHTMAP 0
-#define PRT_IMAGE_VOLUME 1
+#define PRT_IMAGE_TEXELS 3 // differs from the bindings of its shader, because Vulkan has one range for all
 
 // Weights of the probes of a volume, defined in runtime/transfer/volume_weights.h.
 #define PRT_VOLUME_NORMAL_BIAS 0.25

@@ -13,7 +13,7 @@ layout(std430, binding = PRT_BINDING_RAW_RADIANCE) readonly buffer Radiance {
 layout(std430, binding = PRT_BINDING_TEXEL_RECEIVERS) readonly buffer Nearest {
     uint receivers[]; // [texels of the map]
 };
-layout(binding = PRT_IMAGE_LIGHTMAP, rgba16f) writeonly uniform image2D lightmap;
+layout(binding = PRT_IMAGE_TEXELS, rgba16f) writeonly uniform image2D lightmap;
 
 const float kMaxHalf = 65504.0;
 

@@ -81,14 +81,14 @@ void warn_of_large_blocks(const Path& model, const ClusteredTransfer& transfer) 
 void write_lightmap_shader(const ShaderArguments& a, const ClusteredTransfer& transfer,
                            ConstantSource constants, Session& session) {
     const bool old = constants_for(a.language) == ConstantSource::texture;
-    const LightmapPass pass =
-        a.stage == Stage::fragment || old ? LightmapPass::fragment : LightmapPass::compute;
+    const bool draws = a.stage == Stage::fragment || old;
     if (constants == ConstantSource::block)
         warn_of_large_blocks(a.model, transfer);
-    session.write(a.output, lightmap_shader(transfer, pass, constants, a.language));
+    session.write(a.output, draws ? lightmap_shader(transfer, constants, a.language)
+                                  : texel_shader(transfer, a.language, TexelFormat::rgba16, constants));
     print(fmt::format("{}: {} clusters, {} rows of constants; a {} shader over the texels of a map\n",
                       printable(a.output.string()), transfer.bases.clusters(), constant_rows(transfer.bases),
-                      pass == LightmapPass::compute ? "compute" : "fragment"));
+                      draws ? "fragment" : "compute"));
 }
 
 /// Writes the lookup, which has the same text in all languages, or the pass before it.
@@ -97,9 +97,8 @@ void write_volume_shader(const ShaderArguments& a, const SceneFile& model, Sessi
         throw Error(a.model.string() +
                     ": contains no compressed volume; run prt bake --volume and prt compress first");
     const CompressedVolume& volume = *model.compressed_volume;
-    session.write(a.output, a.computes()
-                                ? volume_shader(volume, a.language)
-                                : volume_functions(volume, VolumeFormat::rgba16, model.scene.origin));
+    session.write(a.output, a.computes() ? texel_shader(volume.compressed.transfer, a.language)
+                                         : volume_functions(volume, TexelFormat::rgba16, model.scene.origin));
     const VolumeAtlas atlas = atlas_of(volume.grid, volume.order);
     const glm::ivec3 texels = atlas.light_texels();
     print(fmt::format("{}: {}; light in a texture of {} x {} x {} texels RGBA16F\n",
@@ -114,7 +113,7 @@ void write_volume_shader(const ShaderArguments& a, const SceneFile& model, Sessi
 void write_occluder_shader(const ShaderArguments& a, const SceneFile& model, Session& session) {
     const std::string lookup =
         model.compressed_volume
-            ? volume_functions(*model.compressed_volume, VolumeFormat::rgba16, model.scene.origin)
+            ? volume_functions(*model.compressed_volume, TexelFormat::rgba16, model.scene.origin)
             : "";
     session.write(a.output, lookup + shader_part("prt_occluders.glsl", ""));
     print(fmt::format(
@@ -132,7 +131,7 @@ void write_lobe_shader(const ShaderArguments& a, const SceneFile& model, Session
     const LobeModel& lobes = model.lobes->model;
     const std::string lookup =
         model.compressed_volume
-            ? volume_functions(*model.compressed_volume, VolumeFormat::rgba16, model.scene.origin)
+            ? volume_functions(*model.compressed_volume, TexelFormat::rgba16, model.scene.origin)
             : "";
     session.write(a.output, lobe_functions(lobes, lookup));
     print(fmt::format(

@@ -1,6 +1,6 @@
 // The C interface: volumes in files written by prt compress.
 
-#include "prt/core/volume_relighter.h"
+#include "prt/core/texture_relighter.h"
 #include "prt/load/model.h"
 #include "prt/shader/shader_source.h"
 #include "runtime/c/boundary.h"
@@ -19,7 +19,7 @@ struct prt_volume {
     glm::dvec3 origin;
     prt::CompressedVolume volume;
     prt::VolumeLookup lookup;
-    prt::VolumeRelighter relighter; // refers to the volume
+    prt::TextureRelighter relighter; // refers to the volume
     std::vector<std::uint32_t> visibility, index;
 
     prt_volume(const glm::dvec3& of_scene, prt::CompressedVolume&& of_file)
@@ -59,7 +59,7 @@ void mix(const prt_volume& volume, const float* incident, const prt_volume_posit
     for (const std::uint32_t probe : corners.probes)
         if (!within(kMaxConstant, incident + 3 * n * probe, 3 * n))
             throw Error("the light of probes must be finite and at most 1e30");
-    prt::mix_incident(corners, light_colors(incident, n * volume.relighter.probes()), light);
+    prt::mix_incident(corners, light_colors(incident, n * volume.relighter.units(0)), light);
 }
 
 } // namespace
@@ -94,7 +94,7 @@ prt_status prt_volume_get_info(const prt_volume* volume, prt_volume_info* out, p
         *out = {};
         out->order = layout.order;
         out->incident_order = volume->volume.order;
-        out->probes = volume->relighter.probes();
+        out->probes = volume->relighter.units(0);
         out->rows = volume->relighter.rows();
         out->lamps = layout.lamps();
         out->has_direct_term = layout.has(prt::TermKind::direct);
@@ -113,7 +113,7 @@ prt_status prt_volume_get_textures(const prt_volume* volume, prt_volume_textures
         std::copy_n(glm::value_ptr(light), 3, out->light);
         std::copy_n(glm::value_ptr(visibility), 3, out->visibility);
         std::copy_n(glm::value_ptr(volume->volume.grid.size), 3, out->index);
-        out->light_bytes = volume->relighter.bytes();
+        out->light_bytes = volume->relighter.bytes(0);
         out->visibility_texels = volume->visibility.data();
         out->index_texels = volume->index.data();
     });
@@ -146,11 +146,11 @@ prt_status prt_volume_update_light(const prt_volume* volume, const float* consta
                                    size_t last, void* texels, prt_message* message) {
     return guarded(message, [&] {
         check_pointers(volume, constants, texels);
-        if (first > last || last > volume->relighter.probes())
+        if (first > last || last > volume->relighter.units(0))
             throw Error("the range of probes is invalid: the volume has " +
-                        prt::counted(volume->relighter.probes(), "probe"));
-        volume->relighter.update_probes(checked_constants(*volume, constants), first, last,
-                                        {static_cast<std::byte*>(texels), volume->relighter.bytes()});
+                        prt::counted(volume->relighter.units(0), "probe"));
+        volume->relighter.update_range(0, checked_constants(*volume, constants), first, last,
+                                       {static_cast<std::byte*>(texels), volume->relighter.bytes(0)});
     });
 }
 
@@ -159,7 +159,7 @@ prt_status prt_volume_evaluate(const prt_volume* volume, const float* constants,
     return guarded(message, [&] {
         check_pointers(volume, constants, incident);
         prt::evaluate(volume->volume.compressed.transfer, checked_constants(*volume, constants),
-                      {colors(incident), volume->relighter.probes() * volume->coefficients()});
+                      {colors(incident), volume->relighter.units(0) * volume->coefficients()});
     });
 }
 
@@ -198,7 +198,8 @@ prt_status prt_volume_shader(const prt_volume* volume, int language, char* sourc
                              prt_message* message) {
     return guarded(message, [&] {
         check_pointers(volume, size);
-        write_text(prt::volume_shader(volume->volume, language_of(language)), source, size);
+        write_text(prt::texel_shader(volume->volume.compressed.transfer, language_of(language)), source,
+                   size);
     });
 }
 

@@ -45,6 +45,11 @@ const char* version_lines(ShaderLanguage language) {
     return "#version 450 core\n";
 }
 
+void check_compute(ShaderLanguage language, const char* remedy) {
+    if (language != ShaderLanguage::glsl450 && language != ShaderLanguage::vulkan)
+        throw Error(std::string("OpenGL 3.3 and OpenGL ES 3.0 do not support compute shaders; ") + remedy);
+}
+
 std::string predictor_defines(const ClusteredBases& bases, const glm::dvec3& seen_from) {
     std::string text;
     for (const Predictor& predictor : bases.predictors) {
@@ -173,21 +178,31 @@ std::string term_defines(const TransferLayout& layout) {
 }
 
 std::string constants_shader(const ClusteredTransfer& transfer, ShaderLanguage language) {
-    if (language != ShaderLanguage::glsl450 && language != ShaderLanguage::vulkan)
-        throw Error(
-            "OpenGL 3.3 and OpenGL ES 3.0 do not support compute shaders; compute the constants on the CPU");
+    check_compute(language, "compute the constants on the CPU");
     return shader_source(
         "prt_constants.comp",
         define("PRT_ROWS", constant_rows(transfer.bases)) + term_defines(transfer.bases.layout), language);
 }
 
-std::string lightmap_shader(const ClusteredTransfer& transfer, LightmapPass pass, ConstantSource constants,
+std::string texel_defines(const ClusteredTransfer& transfer, TexelFormat format, ConstantSource constants,
+                          ShaderLanguage language) {
+    const char* const names[] = {nullptr, "r11f_g11f_b10f", "rgba16f", "rgba32f"};
+    if (format == TexelFormat::rgb9e5)
+        throw Error("shaders cannot write RGB9_E5; use another TexelFormat");
+    return relight_defines(transfer, constants, language) +
+           define("PRT_OUTPUTS", transfer.bases.layout.outputs) +
+           define("PRT_TEXEL_FORMAT", std::string(names[static_cast<std::size_t>(format)]));
+}
+
+std::string texel_shader(const ClusteredTransfer& transfer, ShaderLanguage language, TexelFormat format,
+                         ConstantSource constants) {
+    check_compute(language, "use the fragment shader of lightmaps, or compute the texture on the CPU");
+    return shader_source("prt_texels.comp", texel_defines(transfer, format, constants, language), language);
+}
+
+std::string lightmap_shader(const ClusteredTransfer& transfer, ConstantSource constants,
                             ShaderLanguage language) {
-    if (pass == LightmapPass::compute && language != ShaderLanguage::glsl450 &&
-        language != ShaderLanguage::vulkan)
-        throw Error("OpenGL 3.3 and OpenGL ES 3.0 do not support compute shaders; use the fragment shader");
-    return shader_source(pass == LightmapPass::compute ? "prt_lightmap.comp" : "prt_lightmap.frag",
-                         relight_defines(transfer, constants, language), language);
+    return shader_source("prt_lightmap.frag", relight_defines(transfer, constants, language), language);
 }
 
 } // namespace prt

@@ -4,21 +4,11 @@
 #include "runtime/support/parallel.h"
 #include "runtime/support/vector_lanes.h"
 #include "runtime/transfer/evaluate_range.h"
-#include "runtime/transfer/packed_weights.h"
 
 #include <cassert>
 
 namespace prt {
 namespace {
-
-using Color [[gnu::vector_size(16)]] = float;
-using ColorInMemory [[gnu::vector_size(16), gnu::aligned(4), gnu::may_alias]] = float;
-
-[[gnu::always_inline]] inline Color color_at(const glm::vec4* row) {
-    return *reinterpret_cast<const ColorInMemory*>(row);
-}
-
-constexpr std::size_t kMaxOutputs = 16;
 
 template <WeightFormat Format>
 [[gnu::always_inline]] inline Color sum_of_weights(const ClusteredReceivers& receivers,
@@ -86,29 +76,29 @@ void evaluate_in_lanes(const ClusteredReceivers& receivers, const ClusterLayout*
     }
 }
 
+template <std::size_t Outputs>
+[[gnu::always_inline]] inline void evaluate_each(const ClusteredReceivers& receivers,
+                                                 const ClusterLayout* layouts, const glm::vec4* constants,
+                                                 std::size_t begin, std::size_t end, glm::vec3* radiance) {
+    for (std::size_t p = begin; p < end; ++p) {
+        Color sums[Outputs];
+        sum_outputs(receivers, layouts, constants, p, sums);
+        for (const Color& sum : sums)
+            *radiance++ = {sum[0], sum[1], sum[2]};
+    }
+}
+
 /// Evaluates every output of receivers [begin, end), whose weights are packed.
 PRT_TARGET_CLONES
 void evaluate_outputs(const ClusteredReceivers& receivers, const ClusterLayout* layouts, std::size_t outputs,
                       const glm::vec4* constants, std::size_t begin, std::size_t end, glm::vec3* radiance) {
-    const std::size_t stride = receivers.stride();
-    for (std::size_t p = begin; p < end; ++p) {
-        const std::byte* const words = receivers.weights.data() + p * stride;
-        const ClusterLayout& layout = layouts[cluster_in(words, receivers.cluster_bits)];
-        const glm::vec4* row = constants + layout.first_row * outputs;
-        Color sums[kMaxOutputs];
-        for (std::size_t o = 0; o < outputs; ++o)
-            sums[o] = color_at(row + o);
-        auto position = static_cast<std::size_t>(receivers.cluster_bits);
-        for (std::size_t j = 0; j < layout.components; ++j) {
-            const int width = width_of(layout, j);
-            const auto weight = static_cast<float>(bits_at(words, position, width));
-            position += static_cast<std::size_t>(width);
-            row += outputs;
-            for (std::size_t o = 0; o < outputs; ++o)
-                sums[o] += weight * color_at(row + o);
-        }
-        for (std::size_t o = 0; o < outputs; ++o)
-            radiance[(p - begin) * outputs + o] = {sums[o][0], sums[o][1], sums[o][2]};
+    switch (outputs) {
+    case 4:
+        return evaluate_each<4>(receivers, layouts, constants, begin, end, radiance);
+    case 9:
+        return evaluate_each<9>(receivers, layouts, constants, begin, end, radiance);
+    default:
+        return evaluate_each<16>(receivers, layouts, constants, begin, end, radiance);
     }
 }
 

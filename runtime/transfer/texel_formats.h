@@ -2,13 +2,14 @@
 
 // Conversion of radiance to texture formats, sixteen texels at a time.
 
-#include "prt/core/lightmap.h"
+#include "prt/core/texture_relighter.h"
 #include "runtime/support/vector_lanes.h"
 
 #include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 
 namespace prt {
 
@@ -78,26 +79,41 @@ inline float small_float(std::uint32_t bits, int mantissa) {
 
 } // namespace texel_formats
 
-inline glm::vec3 read_texel(LightmapFormat format, const std::byte* texel) {
+inline glm::vec3 read_texel(TexelFormat format, const std::byte* texel) {
     using texel_formats::small_float;
-    if (format == LightmapFormat::rgba16) {
+    if (format == TexelFormat::rgba32) {
+        glm::vec3 color;
+        std::memcpy(&color, texel, sizeof color);
+        return color;
+    }
+    if (format == TexelFormat::rgba16) {
         std::uint16_t halves[3];
         std::memcpy(halves, texel, sizeof halves);
         return {small_float(halves[0], 10), small_float(halves[1], 10), small_float(halves[2], 10)};
     }
     std::uint32_t word = 0;
     std::memcpy(&word, texel, sizeof word);
-    if (format == LightmapFormat::r11g11b10)
+    if (format == TexelFormat::r11g11b10)
         return {small_float(word & 2047u, 6), small_float(word >> 11 & 2047u, 6), small_float(word >> 22, 5)};
     const auto scale = std::bit_cast<float>(((word >> 27) + 103) << 23); // 2^(exponent - 24)
     return scale * glm::vec3(word & 511u, word >> 9 & 511u, word >> 18 & 511u);
 }
 
 /// Writes the first `count` texels of the lanes to `to`.
-[[gnu::always_inline]] inline void write_texels(LightmapFormat format, const RadianceLanes& radiance,
+[[gnu::always_inline]] inline void write_texels(TexelFormat format, const RadianceLanes& radiance,
                                                 std::size_t count, std::byte* to) {
     using namespace texel_formats;
-    if (format == LightmapFormat::rgba16) {
+    if (format == TexelFormat::rgba32) {
+        Lanes colors[3];
+        for (int c = 0; c < 3; ++c)
+            colors[c] = within(radiance.colors[c], std::numeric_limits<float>::max());
+        for (std::size_t i = 0; i < count; ++i) {
+            const float texel[] = {colors[0][i], colors[1][i], colors[2][i], 1};
+            std::memcpy(to + i * sizeof texel, texel, sizeof texel);
+        }
+        return;
+    }
+    if (format == TexelFormat::rgba16) {
         std::uint16_t halves[kLaneCount][4];
         WordLanes colors[3];
         for (int c = 0; c < 3; ++c)
@@ -110,7 +126,7 @@ inline glm::vec3 read_texel(LightmapFormat format, const std::byte* texel) {
         std::memcpy(to, halves, count * sizeof halves[0]);
         return;
     }
-    const WordLanes words = format == LightmapFormat::rgb9e5
+    const WordLanes words = format == TexelFormat::rgb9e5
                                 ? shared_exponent(radiance)
                                 : small_float(radiance.colors[0], 65024, 6) |
                                       small_float(radiance.colors[1], 65024, 6) << 11 |

@@ -1,5 +1,5 @@
 // Builds the texture layouts of volumes for shaders.
-#include "prt/core/volume_relighter.h"
+#include "prt/core/transfer_volume.h"
 
 #include "runtime/transfer/volume_weights.h"
 

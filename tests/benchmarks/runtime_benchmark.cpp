@@ -4,10 +4,9 @@
 #include "prt/core/cluster_lighting.h"
 #include "prt/core/dering.h"
 #include "prt/core/environment.h"
-#include "prt/core/lightmap.h"
 #include "prt/core/sh.h"
 #include "prt/core/sh_rotation.h"
-#include "prt/core/volume_relighter.h"
+#include "prt/core/texture_relighter.h"
 
 #include <benchmark/benchmark.h>
 #include <glm/geometric.hpp>
@@ -215,10 +214,9 @@ CompressedLightmap lightmap_of(int side) {
 /// Measures all levels, from given constants.
 void relight_lightmap(State& state) {
     const CompressedLightmap lightmap = lightmap_of(static_cast<int>(state.range(0)));
-    const ClusterLighting constants(lightmap.compressed.transfer);
-    std::vector<glm::vec4> computed(constants.rows());
-    constants.update(random_light(), computed);
-    const LightmapRelighter relighter(lightmap, static_cast<LightmapFormat>(state.range(2)));
+    const TextureRelighter relighter(lightmap, static_cast<TexelFormat>(state.range(2)));
+    std::vector<glm::vec4> computed(relighter.rows());
+    relighter.update_constants(random_light(), {}, computed);
     std::vector<std::byte> texels(relighter.bytes(0));
     for (auto _ : state) {
         relighter.update(0, computed, texels, static_cast<int>(state.range(1)));
@@ -227,7 +225,7 @@ void relight_lightmap(State& state) {
 }
 BENCHMARK(relight_lightmap)
     ->ArgNames({"square", "threads", "format"})
-    ->ArgsProduct({{1, 8, 64}, {1, 2}, {0, 1, 2}})
+    ->ArgsProduct({{1, 8, 64}, {1, 2}, {0, 1, 2, 3}})
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 
@@ -262,16 +260,16 @@ CompressedVolume volume_of() {
 /// Measures the update of constants and of all texels.
 void relight_volume(State& state) {
     const CompressedVolume volume = volume_of();
-    const VolumeRelighter relighter(volume);
+    const TextureRelighter relighter(volume);
     std::vector<glm::vec4> constants(relighter.rows());
-    std::vector<std::byte> texels(relighter.bytes());
+    std::vector<std::byte> texels(relighter.bytes(0));
     const auto light = random_light();
     const bool both = state.range(0) == 0;
     for (auto _ : state) {
         if (both || state.range(0) == 1)
             relighter.update_constants(light, glm::vec3(0, 1, 0), constants);
         if (both || state.range(0) == 2)
-            relighter.update(constants, texels, static_cast<int>(state.range(1)));
+            relighter.update(0, constants, texels, static_cast<int>(state.range(1)));
         benchmark::ClobberMemory();
     }
 }

@@ -1,7 +1,7 @@
 // Tests volumes through the program: baked, compressed, reported and evaluated; and rejected input.
 
 #include "pipeline.h"
-#include "prt/core/volume_relighter.h"
+#include "prt/core/texture_relighter.h"
 #include "prt/gltf/gltf.h"
 #include "prt/gltf/transfer_gltf.h"
 #include "support/glb_file.h"
@@ -120,11 +120,11 @@ void write_textures(const CompressedVolume& volume, const std::filesystem::path&
         sky.emplace_back(std::cos(3 * i + 1), std::cos(3 * i + 2), std::cos(3 * i + 3));
     for (const glm::vec3& value : sky)
         suns.push_back(0.5f * value);
-    const VolumeRelighter relighter(volume);
+    const TextureRelighter relighter(volume);
     std::vector<glm::vec4> constants(relighter.rows());
-    std::vector<std::byte> texels(relighter.bytes());
+    std::vector<std::byte> texels(relighter.bytes(0));
     relighter.update_constants({sky, suns}, glm::vec3(0, 1, 0), constants);
-    relighter.update(constants, texels);
+    relighter.update(0, constants, texels);
     const VolumeLookup lookup(volume.grid, volume.visibility);
     std::ofstream file(path, std::ios::binary);
     for (const auto& words : {visibility_texels(volume.grid, lookup.probes(), volume.visibility),

@@ -2,9 +2,8 @@
 #include "whole_model.h"
 
 #include "bake/gltf/rigid_parts.h"
-#include "prt/core/cluster_lighting.h"
 #include "prt/core/light.h"
-#include "prt/core/lightmap.h"
+#include "prt/core/texture_relighter.h"
 #include "prt/gltf/transfer_gltf.h"
 #include "prt/load/model.h"
 #include "runtime/render/lightmap_lookup.h"
@@ -182,10 +181,9 @@ void expect_finite_light(const CompressedLightmap& lightmap) {
     if (lightmap.layout.texels() > kMaxTexels)
         return;
     expect_finite_light(lightmap.compressed.transfer);
-    const ClusterLighting constants(lightmap.compressed.transfer);
-    std::vector<glm::vec4> computed(constants.rows());
-    constants.update(constant_light(constants.order(), glm::vec3(1)), computed);
-    const LightmapRelighter relighter(lightmap, LightmapFormat::rgb9e5);
+    const TextureRelighter relighter(lightmap, TexelFormat::rgb9e5);
+    std::vector<glm::vec4> computed(relighter.rows());
+    relighter.update_constants(constant_light(relighter.layout().order, glm::vec3(1)), {}, computed);
     for (std::size_t m = 0; m < lightmap.layout.maps.size(); ++m) {
         std::vector<std::byte> texels(relighter.bytes(m));
         relighter.update(m, computed, texels, 1);

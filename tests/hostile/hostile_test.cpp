@@ -34,9 +34,7 @@ bool use(std::span<const std::byte> bytes) {
     if (model.lightmap) {
         const ClusteredTransfer& of_texels = model.lightmap->compressed.transfer;
         fuzz::expect_finite_light(*model.lightmap);
-        fuzz::expect(!lightmap_shader(of_texels, LightmapPass::fragment, ConstantSource::texture,
-                                      ShaderLanguage::essl300)
-                          .empty(),
+        fuzz::expect(!lightmap_shader(of_texels, ConstantSource::texture, ShaderLanguage::essl300).empty(),
                      "a shader is empty");
     }
     if (!model.compressed)

@@ -5,6 +5,7 @@
 #include "prt/render/lightmap_file.h"
 #include "prt/shader/shader_source.h"
 #include "runtime/render/gl/gl_objects.h"
+#include "runtime/render/gl/gl_relit_textures.h"
 #include "runtime/render/gl/gl_scene.h"
 #include "runtime/render/gl/gl_transfer.h"
 #include "shared_layout.h"
@@ -42,27 +43,20 @@ std::vector<GlObject> attach_predictors(GLuint vertex_array, const ClusteredTran
     return buffers;
 }
 
-/// The words of a texel as integers of `format`, in texels that fragments fetch.
-GlObject make_words(const LightmapSize& size, std::span<const std::uint32_t> words, GLenum format,
-                    GLenum layout, GLenum type) {
-    GlObject texture = make_texture_2d(1, format, size.width, size.height);
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    glTextureSubImage2D(texture.name(), 0, 0, 0, size.width, size.height, layout, type, words.data());
-    glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    glTextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    return texture;
-}
-
-/// Binds the words of a map, each in a texture at its unit. `bytes`: as four bytes each, as prt_lightmap.frag
+/// Binds the words of a map, each in a texture of four bytes per texel at its unit, as prt_lightmap.frag
 /// reads them.
-std::vector<GlObject> bind_words(const CompressedLightmap& lightmap, std::size_t map, bool bytes) {
+std::vector<GlObject> bind_words(const CompressedLightmap& lightmap, std::size_t map) {
     std::vector<GlObject> textures;
     for (int w = 0; w < lightmap.compressed.transfer.receivers.words; ++w) {
         const LightmapSize& size = lightmap.layout.maps[map];
-        const std::vector<std::uint32_t> words = words_of_map(lightmap, map, w);
-        textures.push_back(bytes ? make_words(size, words, GL_RGBA8UI, GL_RGBA_INTEGER, GL_UNSIGNED_BYTE)
-                                 : make_words(size, words, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT));
-        glBindTextureUnit(static_cast<GLuint>(PRT_UNIT_WORD_IMAGES + w), textures.back().name());
+        const GlObject& texture =
+            textures.emplace_back(make_texture_2d(1, GL_RGBA8UI, size.width, size.height));
+        glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+        glTextureSubImage2D(texture.name(), 0, 0, 0, size.width, size.height, GL_RGBA_INTEGER,
+                            GL_UNSIGNED_BYTE, words_of_map(lightmap, map, w).data());
+        glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+        glTextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+        glBindTextureUnit(static_cast<GLuint>(PRT_UNIT_WORD_IMAGES + w), texture.name());
     }
     return textures;
 }
@@ -125,22 +119,12 @@ std::vector<glm::vec3> exit_radiance_gl(const ClusteredTransfer& transfer, const
 std::vector<glm::vec3> lightmap_radiance_gl(const CompressedLightmap& lightmap, const Lighting& lighting,
                                             const GlContext& context) {
     context.make_current();
-    const ClusteredTransfer& transfer = lightmap.compressed.transfer;
-    const BoundConstants bound(transfer, lighting);
-    const GlObject program = make_compute_program(
-        "prt_lightmap.comp", relight_defines(transfer) + "#define PRT_LIGHTMAP_FORMAT rgba32f\n");
-    glUseProgram(program.name());
+    GlRelitTextures relit(lightmap, TexelFormat::rgba32);
+    relit.set_light(lighting);
     std::vector<glm::vec3> radiance;
-    for (std::size_t m = 0; m < lightmap.layout.maps.size(); ++m) {
-        const LightmapSize& size = lightmap.layout.maps[m];
-        const std::vector<GlObject> words = bind_words(lightmap, m, false);
-        const GlObject map = make_texture_2d(1, GL_RGBA32F, size.width, size.height);
-        glBindImageTexture(PRT_IMAGE_LIGHTMAP, map.name(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA32F);
-        glDispatchCompute(static_cast<GLuint>(size.width + 7) / 8, static_cast<GLuint>(size.height + 7) / 8,
-                          1);
-        glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
-        append_texture(map, size, radiance);
-    }
+    for (std::size_t m = 0; m < relit.textures().size(); ++m)
+        for (const glm::vec4& texel : relit.read(m))
+            radiance.emplace_back(texel);
     return radiance;
 }
 
@@ -159,7 +143,7 @@ std::vector<glm::vec3> lightmap_radiance_by_fragments(const CompressedLightmap& 
     std::vector<glm::vec3> radiance;
     for (std::size_t m = 0; m < lightmap.layout.maps.size(); ++m) {
         const LightmapSize& size = lightmap.layout.maps[m];
-        const std::vector<GlObject> words = bind_words(lightmap, m, true);
+        const std::vector<GlObject> words = bind_words(lightmap, m);
         const GlObject map = make_texture_2d(1, GL_RGBA32F, size.width, size.height);
         glNamedFramebufferTexture(framebuffer.name(), GL_COLOR_ATTACHMENT0, map.name(), 0);
         glViewport(0, 0, size.width, size.height);

@@ -52,6 +52,12 @@ TransferLayout terms_of_volume(int order) {
     return {order, {{TermKind::direct, 1}, {TermKind::indirect, 3}, {TermKind::lamp, 3, "lantern"}}};
 }
 
+Lighting lighting_of_probes() {
+    Lighting lighting{cone_light(3, {0, 1, 0}, 0.7, {1, 2, 3}), cone_light(3, {1, 0, 0}, 0.2, {3, 2, 1})};
+    lighting.lamps = {{0.5f, 1, 2}};
+    return lighting;
+}
+
 CompressedVolume random_volume(const VolumeGrid& grid, int order, bool alike, std::mt19937& random,
                                std::size_t invalid) {
     CompressedVolume volume{{grid, order, {}}, {}};

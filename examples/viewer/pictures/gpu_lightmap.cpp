@@ -52,7 +52,7 @@ void RawLightmap::set_light(const prt::Lighting& lighting) {
             continue;
         const prt::LightmapSize& size = lightmap_->layout.maps[m];
         prt::bind_storage(PRT_BINDING_TEXEL_RECEIVERS, nearest_[m]);
-        glBindImageTexture(PRT_IMAGE_LIGHTMAP, maps_[m].name(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA16F);
+        glBindImageTexture(PRT_IMAGE_TEXELS, maps_[m].name(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA16F);
         glDispatchCompute(groups(size.width), groups(size.height), 1);
     }
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);

@@ -4,7 +4,7 @@
 
 #include "pictures/raw_transfer.h"
 
-#include "runtime/render/gl/gl_lightmap.h"
+#include "runtime/render/gl/gl_relit_textures.h"
 
 #include <memory>
 #include <span>
@@ -38,11 +38,11 @@ public:
         : lightmap_(std::move(lightmap)), lit_(*lightmap_) {}
 
     void set_light(const prt::Lighting& lighting) { lit_.set_light(lighting); }
-    prt::GlLightmapTextures textures() const { return lit_.textures(); }
+    prt::GlLightmapTextures textures() const { return {&lightmap_->layout, lit_.textures()}; }
 
 private:
     std::shared_ptr<const prt::CompressedLightmap> lightmap_;
-    prt::GlLightmap lit_;
+    prt::GlRelitTextures lit_;
 };
 
 /// Creates maps of `colors` [texels of the layout] with nearest filtering.

@@ -68,7 +68,7 @@ void MovingStage::set_volume(std::shared_ptr<const prt::CompressedVolume> volume
     if (!volume)
         return;
     volume_.transfer = std::move(volume);
-    volume_.gpu = std::make_unique<prt::GlVolume>(*volume_.transfer);
+    volume_.gpu = std::make_unique<prt::GlRelitTextures>(*volume_.transfer);
     volume_.defines = "#define PRT_VOLUME\n" + prt::volume_defines(*volume_.transfer);
     const std::vector<glm::vec4> positions = positions_of_probes(*volume_.transfer);
     volume_.probe_positions = prt::make_buffer(std::span<const glm::vec4>(positions));
@@ -143,7 +143,7 @@ std::optional<OccluderPass> MovingStage::occluders() {
     if (shadows_.empty())
         return std::nullopt;
     if (volume_.gpu)
-        volume_.gpu->bind();
+        volume_.gpu->bind_volume();
     return OccluderPass{&shadows_, volume_.defines};
 }
 
@@ -181,7 +181,7 @@ const prt::GlObject& MovingStage::use(const Surface& surface, const MovingPass& 
     const prt::GlObject& moving = program(surface);
     glUseProgram(moving.name());
     if (volume_.gpu)
-        volume_.gpu->bind();
+        volume_.gpu->bind_volume();
     glUniformMatrix4fv(prt::uniform(moving, "view_projection"), 1, GL_FALSE,
                        glm::value_ptr(pass.view_projection));
     glUniform3fv(prt::uniform(moving, "eye"), 1, glm::value_ptr(pass.eye));

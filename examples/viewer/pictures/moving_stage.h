@@ -7,7 +7,7 @@
 #include "pictures/lamps.h"
 #include "pictures/settings.h"
 
-#include "runtime/render/gl/gl_volume.h"
+#include "runtime/render/gl/gl_relit_textures.h"
 #include "runtime/render/gl/sun_shadows.h"
 
 #include <array>
@@ -65,7 +65,7 @@ public:
 private:
     struct Volume {
         std::shared_ptr<const prt::CompressedVolume> transfer;
-        std::unique_ptr<prt::GlVolume> gpu;
+        std::unique_ptr<prt::GlRelitTextures> gpu;
         std::string defines;
         prt::GlObject probe_positions;
         int probes = 0;

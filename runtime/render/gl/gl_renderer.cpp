@@ -3,7 +3,7 @@
 #include "prt/gl/gl_renderer.h"
 
 #include "prt/core/error.h"
-#include "runtime/render/gl/gl_lightmap.h"
+#include "runtime/render/gl/gl_relit_textures.h"
 #include "runtime/render/gl/gl_scene.h"
 #include "runtime/render/gl/gl_transfer.h"
 #include "runtime/render/gl/sun_shadows.h"
@@ -104,7 +104,7 @@ private:
         if (lightmaps.on_gpu) {
             lightmap_.emplace(*lightmaps.on_gpu);
             lightmap_->set_light(*lightmaps.lighting);
-            scene_.light_by(lightmap_->textures());
+            scene_.light_by({&lightmaps.on_gpu->layout, lightmap_->textures()});
         } else {
             maps_ = make_lightmap_textures(*lightmaps.layout, lightmaps.radiance);
             scene_.light_by({lightmaps.layout, maps_});
@@ -165,7 +165,7 @@ private:
     GlScene scene_;
     GlVertexArrays arrays_;
     std::optional<GlTransfer> transfer_;
-    std::optional<GlLightmap> lightmap_;
+    std::optional<GlRelitTextures> lightmap_;
     std::vector<GlObject> maps_;
     std::optional<SunShadows> shadows_;
     GlObject radiance_, program_;

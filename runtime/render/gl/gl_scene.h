@@ -4,8 +4,8 @@
 // all functions.
 
 #include "prt/render/picture.h"
-#include "runtime/render/gl/gl_lightmap.h"
 #include "runtime/render/gl/gl_objects.h"
+#include "runtime/render/gl/gl_relit_textures.h"
 
 #include <cstdint>
 #include <span>

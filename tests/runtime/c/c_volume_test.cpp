@@ -2,7 +2,7 @@
 
 #include "prt/prt.h"
 
-#include "prt/core/volume_relighter.h"
+#include "prt/core/texture_relighter.h"
 #include "prt/gltf/gltf.h"
 #include "support/glb_file.h"
 #include "support/random_volume.h"
@@ -71,12 +71,12 @@ TEST_F(CVolume, ReportsItsProperties) {
 }
 
 TEST_F(CVolume, ComputesTheTexturesOfCpp) {
-    const VolumeRelighter relighter(expected);
+    const TextureRelighter relighter(expected);
     const VolumeLookup lookup(expected.grid, expected.visibility);
     std::vector<glm::vec4> computed(relighter.rows());
-    std::vector<std::byte> light(relighter.bytes()), texels(textures.light_bytes);
+    std::vector<std::byte> light(relighter.bytes(0)), texels(textures.light_bytes);
     relighter.update_constants(sky, glm::normalize(glm::make_vec3(kSun)), computed);
-    relighter.update(computed, light, 1);
+    relighter.update(0, computed, light, 1);
     const std::vector<float> by_c = constants();
     const std::size_t half = info.probes / 2;
     EXPECT_EQ(prt_volume_update_light(volume, by_c.data(), 0, half, texels.data(), nullptr), PRT_OK);

@@ -4,7 +4,7 @@
 #include "prt/core/sh.h"
 #include "prt/gl/gl_context.h"
 #include "prt/shader/shader_source.h"
-#include "runtime/render/gl/gl_volume.h"
+#include "runtime/render/gl/gl_relit_textures.h"
 #include "runtime/shader/run_shader.h"
 #include "shared_layout.h"
 #include "support/random_volume.h"
@@ -24,17 +24,11 @@ namespace {
 
 const glm::vec3 kSun = glm::normalize(glm::vec3(1, 2, -0.5f));
 
-Lighting lighting_of_probes() {
-    Lighting lighting{cone_light(3, {0, 1, 0}, 0.7, {1, 2, 3}), cone_light(3, {1, 0, 0}, 0.2, {3, 2, 1})};
-    lighting.lamps = {{0.5f, 1, 2}};
-    return lighting;
-}
-
-std::vector<std::byte> constants_by_cpp(const VolumeRelighter& relighter) {
+std::vector<std::byte> constants_by_cpp(const TextureRelighter& relighter) {
     std::vector<glm::vec4> constants(relighter.rows());
-    std::vector<std::byte> texels(relighter.bytes());
+    std::vector<std::byte> texels(relighter.bytes(0));
     relighter.update_constants(lighting_of_probes(), kSun, constants);
-    relighter.update(constants, texels, 1);
+    relighter.update(0, constants, texels, 1);
     return texels;
 }
 
@@ -84,11 +78,11 @@ const glm::vec3 kFacing = glm::normalize(glm::vec3(0.3f, -0.8f, 0.45f));
 
 std::vector<Found> found_by_cpp(const CompressedVolume& volume, const std::vector<Position>& positions) {
     const VolumeLookup lookup(volume.grid, volume.visibility);
-    const VolumeRelighter relighter(volume, VolumeFormat::rgba32);
+    const TextureRelighter relighter(volume, TexelFormat::rgba32);
     const std::vector<std::byte> texels = constants_by_cpp(relighter);
     const std::size_t n = relighter.atlas().coefficients();
     const std::vector<glm::vec3> incident = incident_light(volume, lighting_of_probes());
-    std::vector<float> suns(relighter.probes());
+    std::vector<float> suns(lookup.probes().size());
     for (std::size_t b = 0; b < volume.grid.bricks.size(); ++b)
         for (std::size_t i = 0; i < kBrickProbes; ++i)
             std::memcpy(&suns[lookup.probes().of_brick[b][i]],
@@ -156,7 +150,7 @@ void main() {
 }
 
 /// With the textures that are bound, in the context that is current; calls of ES 3.0 alone.
-std::vector<Found> found_by_shader(const CompressedVolume& volume, VolumeFormat format,
+std::vector<Found> found_by_shader(const CompressedVolume& volume, TexelFormat format,
                                    ShaderLanguage language, const std::vector<Position>& positions) {
     bind_small_framebuffer();
     lookup_program(volume_functions(volume, format), language);
@@ -238,11 +232,11 @@ void bind_texture_3d(GLuint unit, GLenum internal, GLenum format, GLenum type, c
                  texels);
 }
 
-void bind_textures_of(const CompressedVolume& volume, VolumeFormat format) {
-    const VolumeRelighter relighter(volume, format);
+void bind_textures_of(const CompressedVolume& volume, TexelFormat format) {
+    const TextureRelighter relighter(volume, format);
     const VolumeLookup lookup(volume.grid, volume.visibility);
     const VolumeAtlas& atlas = relighter.atlas();
-    const bool half = format == VolumeFormat::rgba16;
+    const bool half = format == TexelFormat::rgba16;
     bind_texture_3d(PRT_UNIT_VOLUME_LIGHT, half ? GL_RGBA16F : GL_RGBA32F, GL_RGBA,
                     half ? GL_HALF_FLOAT : GL_FLOAT, atlas.light_texels(),
                     constants_by_cpp(relighter).data());
@@ -277,15 +271,15 @@ TEST_P(VolumeLanguages, MatchCpp) {
         const CompressedVolume volume = random_volume(order, false, random);
         const std::vector<Position> positions = positions_in(volume.grid, random);
         const std::vector<Found> expected = found_by_cpp(volume, positions);
-        for (const VolumeFormat format : {VolumeFormat::rgba32, VolumeFormat::rgba16}) {
+        for (const TexelFormat format : {TexelFormat::rgba32, TexelFormat::rgba16}) {
             bind_textures_of(volume, format);
             const float largest =
                 largest_difference(expected, found_by_shader(volume, format, GetParam(), positions));
-            RecordProperty((format == VolumeFormat::rgba32 ? "floats_" : "halves_") + std::to_string(order),
+            RecordProperty((format == TexelFormat::rgba32 ? "floats_" : "halves_") + std::to_string(order),
                            std::to_string(1e9f * largest));
             // Half floats, and filters whose weights may have eight bits.
             EXPECT_LT(largest,
-                      format == VolumeFormat::rgba32 ? test::rounding_tolerance() : test::filter_tolerance())
+                      format == TexelFormat::rgba32 ? test::rounding_tolerance() : test::filter_tolerance())
                 << order;
         }
     }
@@ -296,9 +290,9 @@ TEST_P(VolumeLanguages, FilterFullyVisibleCells) {
     CompressedVolume volume = random_volume(3, true, random);
     std::ranges::fill(volume.visibility, ProbeVisibility{255, 255, 255, 255, 255, 255});
     const std::vector<Position> positions = positions_in(volume.grid, random);
-    bind_textures_of(volume, VolumeFormat::rgba16);
+    bind_textures_of(volume, TexelFormat::rgba16);
     EXPECT_LT(largest_difference(found_by_cpp(volume, positions),
-                                 found_by_shader(volume, VolumeFormat::rgba16, GetParam(), positions)),
+                                 found_by_shader(volume, TexelFormat::rgba16, GetParam(), positions)),
               test::filter_tolerance());
 }
 
@@ -311,11 +305,13 @@ TEST_P(VolumePass, MatchesCpp) {
     const auto [order, alike] = GetParam();
     std::mt19937 random(13);
     const CompressedVolume volume = random_volume(order, alike, random);
-    for (const VolumeFormat format : {VolumeFormat::rgba32, VolumeFormat::rgba16}) {
-        GlVolume by_gpu(volume, format), by_cpp(volume, format);
+    for (const TexelFormat format : {TexelFormat::rgba32, TexelFormat::rgba16}) {
+        GlRelitTextures by_gpu(volume, format);
         by_gpu.set_light(lighting_of_probes(), kSun);
-        by_cpp.upload(constants_by_cpp(by_cpp.relighter()));
-        const std::vector<glm::vec4> expected = by_cpp.read(), computed = by_gpu.read();
+        const std::vector<std::byte> floats = constants_by_cpp(TextureRelighter(volume, TexelFormat::rgba32));
+        const std::vector<glm::vec4> computed = by_gpu.read(0);
+        std::vector<glm::vec4> expected(computed.size());
+        std::memcpy(expected.data(), floats.data(), floats.size());
         float largest = 0;
         for (std::size_t b = 0; b < volume.grid.bricks.size(); ++b)
             for (std::size_t i = 0; i < kBrickProbes; ++i)
@@ -326,10 +322,10 @@ TEST_P(VolumePass, MatchesCpp) {
                     largest = std::max(largest, glm::distance(expected[t], computed[t]) /
                                                     std::max(1.0f, glm::length(expected[t])));
                 }
-        EXPECT_LT(largest, format == VolumeFormat::rgba32 ? 1e-5f : 1e-3f);
-        if (format != VolumeFormat::rgba32)
+        EXPECT_LT(largest, format == TexelFormat::rgba32 ? 1e-5f : 1e-3f); // a half float may be truncated
+        if (format != TexelFormat::rgba32)
             continue;
-        by_gpu.bind();
+        by_gpu.bind_volume();
         const std::vector<Position> positions = positions_in(volume.grid, random);
         EXPECT_LT(largest_difference(found_by_cpp(volume, positions),
                                      found_by_shader(volume, format, ShaderLanguage::glsl450, positions)),

@@ -44,19 +44,16 @@ for file in *.vert *.frag *.comp; do
                 compiles "$file" "PRT_ORDER 6" $defines
             done
             ;;
-        prt_lightmap.comp)
-            compiles "$file" "${packed[@]}"
-            compiles "$file" "${packed[@]}" "${equal_clusters[@]}" "PRT_LIGHTMAP_FORMAT r11f_g11f_b10f"
-            ;;
         prt_instances.vert | viewer_lit_instances.vert)
             compiles "$file" "${packed[@]}" "${predictors[@]}" PRT_INSTANCES
             compiles "$file" PRT_CONSTANTS_BUFFER "PRT_WEIGHT_VECTORS 2" PRT_INSTANCES
             ;;
-        prt_volume.comp)
-            for order in 2 3 4; do
-                compiles "$file" "${packed[@]}" "PRT_VOLUME_ORDER $order"
+        prt_texels.comp)
+            for outputs in 1 4 9 16; do
+                compiles "$file" "${packed[@]}" "PRT_OUTPUTS $outputs"
             done
-            compiles "$file" "${packed[@]}" "${equal_clusters[@]}" "PRT_VOLUME_ORDER 3" "PRT_VOLUME_FORMAT rgba32f"
+            compiles "$file" "${packed[@]}" "${equal_clusters[@]}" "PRT_OUTPUTS 9" "PRT_TEXEL_FORMAT rgba32f"
+            compiles "$file" "${packed[@]}" "${equal_clusters[@]}" "PRT_TEXEL_FORMAT r11f_g11f_b10f"
             ;;
         *.comp)
             compiles "$file" "PRT_ROWS 40" "PRT_NUMBERS 144" "PRT_FIRST_CHANNELS 1" "PRT_COEFFICIENTS 36"

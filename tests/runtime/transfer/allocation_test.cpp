@@ -1,10 +1,9 @@
 // Tests that per-frame functions do not allocate. A separate program, because it counts every allocation.
 
 #include "prt/core/cluster_lighting.h"
-#include "prt/core/lightmap.h"
 #include "prt/core/sh.h"
 #include "prt/core/sh_rotation.h"
-#include "prt/core/volume_relighter.h"
+#include "prt/core/texture_relighter.h"
 #include "support/random_lightmap.h"
 #include "support/random_volume.h"
 
@@ -65,30 +64,29 @@ TEST(Frame, DoesNotAllocate) {
 TEST(Lightmap, IsLitWithoutAllocation) {
     std::mt19937 random(1);
     const CompressedLightmap lightmap = test::random_lightmap({{70, 40}}, 2, false, random);
-    const ClusterLighting constants(lightmap.compressed.transfer);
-    std::vector<glm::vec4> computed(constants.rows());
     const Light light = constant_light(3, {1, 2, 3});
-    const LightmapRelighter relighter(lightmap, LightmapFormat::rgb9e5);
+    const TextureRelighter relighter(lightmap, TexelFormat::rgb9e5);
+    std::vector<glm::vec4> constants(relighter.rows());
     std::vector<std::byte> texels(relighter.bytes(0));
     const std::size_t before = allocations;
-    constants.update(light.coefficients, computed);
-    relighter.update(0, computed, texels, 1); // several threads have to be started
+    relighter.update_constants(light, {}, constants);
+    relighter.update(0, constants, texels, 1); // several threads have to be started
     EXPECT_EQ(allocations, before);
 }
 
 TEST(Volume, IsLitAndLookedUpWithoutAllocation) {
     std::mt19937 random(1);
     const CompressedVolume volume = test::random_volume(3, false, random);
-    const VolumeRelighter relighter(volume);
+    const TextureRelighter relighter(volume);
     const VolumeLookup lookup(volume.grid, volume.visibility);
     const Light light = constant_light(3, {1, 2, 3});
     std::vector<glm::vec4> constants(relighter.rows());
-    std::vector<std::byte> texels(relighter.bytes());
+    std::vector<std::byte> texels(relighter.bytes(0));
     const std::vector<glm::vec3> incident = incident_light(volume, {light}, 1);
     std::array<glm::vec3, 9> mixed{};
     const std::size_t before = allocations;
     relighter.update_constants(light, glm::vec3(0, 1, 0), constants);
-    relighter.update(constants, texels, 1); // several threads have to be started
+    relighter.update(0, constants, texels, 1); // several threads have to be started
     mix_incident(lookup.find({0, 1, 2}, {0, 1, 0}), incident, mixed);
     irradiance_of(mixed, {0, 1, 0});
     EXPECT_EQ(allocations, before);

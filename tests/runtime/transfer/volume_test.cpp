@@ -260,5 +260,42 @@ TEST(Irradiance, MatchesUniformAndCosineLight) {
     EXPECT_EQ(irradiance_of(cosine, {0, -1, 0}).x, 0);
 }
 
+TEST(VolumeAtlas, GivesEachBrickSeparateTexels) {
+    for (const int count : {1, 51, 52, 2601, 2602, 18000}) {
+        VolumeGrid grid;
+        grid.bricks.resize(static_cast<std::size_t>(count));
+        const VolumeAtlas atlas = atlas_of(grid, 3);
+        EXPECT_GE(atlas.bricks.x * atlas.bricks.y * atlas.bricks.z, count);
+        EXPECT_LT(atlas.bricks.x * atlas.bricks.y * atlas.bricks.z, 1.1 * count + 51);
+        const glm::ivec3 texels = atlas.light_texels();
+        EXPECT_LE(std::max({texels.x, texels.y, texels.z}), kGuaranteedTexels);
+    }
+    VolumeGrid grid;
+    grid.bricks.resize(60);
+    const VolumeAtlas atlas = atlas_of(grid, 2);
+    std::vector<std::size_t> texels;
+    for (std::size_t b = 0; b < grid.bricks.size(); ++b)
+        for (std::size_t i = 0; i < kBrickProbes; ++i)
+            texels.push_back(atlas.texel(b, i));
+    std::ranges::sort(texels);
+    EXPECT_EQ(std::ranges::adjacent_find(texels), texels.end());
+    EXPECT_LT(texels.back(), atlas.texels_of_plane());
+}
+
+TEST(VisibilityTexels, MarkFullyVisibleCells) {
+    const VolumeGrid grid{
+        .origin = glm::vec3(0), .spacing = 1, .size = {1, 1, 1}, .bricks = {{{0, 0, 0}, 0}}};
+    const VolumeProbes probes = probes_of(grid);
+    std::vector<ProbeVisibility> visibility(kBrickProbes, {255, 255, 255, 255, 255, 255});
+    const auto seen_whole = [&](std::size_t i) {
+        return visibility_texels(grid, probes, visibility)[2 * atlas_of(grid, 2).texel(0, i) + 1] >> 24;
+    };
+    EXPECT_EQ(seen_whole(0), 1u);
+    EXPECT_EQ(seen_whole(4), 0u); // no cell is above the last corner
+    visibility[1][1] = 100;       // 0.6 cells along +x from (1, 0, 0)
+    EXPECT_EQ(seen_whole(0), 1u); // which is away from the first cell
+    EXPECT_EQ(seen_whole(1), 0u);
+}
+
 } // namespace
 } // namespace prt

@@ -405,7 +405,7 @@ PRT_API prt_status prt_volume_irradiance(const prt_volume* volume, const float* 
 PRT_API prt_status prt_volume_functions(const prt_volume* volume, char* source, size_t* size,
                                         prt_message* message);
 /* Writes the source of the compute shader that computes the light texture on the GPU
- * (shaders/prt_volume.comp), with a final 0, to `source`. `language` is PRT_GLSL450 or PRT_VULKAN; for others
+ * (shaders/prt_texels.comp), with a final 0, to `source`. `language` is PRT_GLSL450 or PRT_VULKAN; for others
  * returns PRT_BAD_ARGUMENT. `source` and *size are used as in prt_model_shader. */
 PRT_API prt_status prt_volume_shader(const prt_volume* volume, int language, char* source, size_t* size,
                                      prt_message* message);

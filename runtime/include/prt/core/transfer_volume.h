@@ -2,7 +2,7 @@
 
 // Volumes: transfer of probes in free space, which lights objects that move through a scene. A probe has the
 // linear map from lighting to the incident light at its position, which is radiance from all directions as SH
-// coefficients. Experimental.
+// coefficients. Also the layout of the textures in which shaders look up a volume. Experimental.
 
 #include "prt/core/baked_transfer.h"
 #include "prt/core/light.h"
@@ -193,5 +193,54 @@ void mix_incident(const VolumeCorners& corners, std::span<const glm::vec3> incid
 /// for albedo 1 (Ramamoorthi and Hanrahan 2001). `incident` contains the 4, 9 or 16 SH coefficients of the
 /// incident light; the result has the same unit. A channel that would be negative is 0.
 glm::vec3 irradiance_of(std::span<const glm::vec3> incident, const glm::vec3& normal);
+
+/// Number of texels along a side of a 3D texture that every implementation of OpenGL 3.3 and ES 3.0 supports.
+/// The light and visibility textures of a VolumeAtlas never exceed it along x and y. Along z they can: a
+/// light texture of order 3 exceeds it from 18 208 bricks on.
+inline constexpr int kGuaranteedTexels = 256;
+
+/// Positions of the bricks of a volume in its light and visibility textures.
+struct VolumeAtlas {
+    /// Number of bricks along each axis of one plane. Brick b of VolumeGrid::bricks is at
+    /// (b mod x, b / x mod y, b / (x y)), in bricks; x, y and z are the components of `bricks`.
+    glm::ivec3 bricks{0};
+    int order = 0; ///< order of incident light, 2 to kMaxIncidentOrder; 0 only before initialisation
+
+    /// Returns the number of SH coefficients of a probe, order².
+    std::size_t coefficients() const { return static_cast<std::size_t>(coefficient_count(order)); }
+    /// Returns the number of planes of the light texture. Each plane contains four numbers of every probe. A
+    /// probe has three numbers per SH coefficient, and one for the sun.
+    int planes() const { return (3 * coefficient_count(order) + 1 + 3) / 4; }
+    /// Returns width, height and depth of the visibility texture in texels. One plane of the light texture
+    /// has the same size.
+    glm::ivec3 visibility_texels() const { return kBrickSide * bricks; }
+    /// Returns width, height and depth of the light texture in texels, with all planes stacked along z.
+    glm::ivec3 light_texels() const { return visibility_texels() * glm::ivec3(1, 1, planes()); }
+    /// Returns the number of texels of one plane of the light texture, including texels without a brick.
+    std::size_t texels_of_plane() const;
+    /// Returns the texel of probe `i` of brick `brick` as an index into a plane [depth][height][width].
+    /// `brick` is an index into VolumeGrid::bricks. `i` is 0 to kBrickProbes - 1; x varies fastest, then y,
+    /// then z.
+    std::size_t texel(std::size_t brick, std::size_t i) const;
+
+    friend bool operator==(const VolumeAtlas&, const VolumeAtlas&) = default;
+};
+
+/// Returns the atlas for all bricks of `grid`. `order`: number of bands of incident light, 2 to
+/// kMaxIncidentOrder.
+VolumeAtlas atlas_of(const VolumeGrid& grid, int order);
+
+/// Builds the visibility texture, [texels_of_plane()][2]. `probes`: probes_of(grid); `visibility`: [probes].
+/// Four bytes of word 0, lowest first: the stored visibility distances along -x, +x, -y and +y. Four bytes of
+/// word 1: the distances along -z and +z, the level of the probe minus the level of the brick, and a flag.
+/// The flag belongs to the cell whose minimum corner is this probe. The flag is 1 if all eight probes of the
+/// cell see the whole cell, so that shaders use trilinear weights there. Otherwise, and if the brick has no
+/// cell at this corner, the flag is 0. Texels without a brick are 0.
+std::vector<std::uint32_t> visibility_texels(const VolumeGrid& grid, const VolumeProbes& probes,
+                                             std::span<const ProbeVisibility> visibility);
+
+/// Builds the index texture, [size.z][size.y][size.x] with `size` of `grid`: 4 · brick + level of the brick,
+/// or VolumeLookup::kNoBrick if no brick covers the entry. `index`: result of VolumeLookup::index for `grid`.
+std::vector<std::uint32_t> index_texels(const VolumeGrid& grid, std::span<const std::uint32_t> index);
 
 } // namespace prt

@@ -1,11 +1,11 @@
 #pragma once
 
 // The shaders of the runtime as source text, for the graphics API of a game: vertices, lightmaps, volumes,
-// instances and lobes. The functions for vertices and lightmaps are stable.
+// instances and lobes. The functions for vertices are stable.
 
 #include "prt/core/clustered_transfer.h"
 #include "prt/core/lobes.h"
-#include "prt/core/volume_relighter.h"
+#include "prt/core/texture_relighter.h"
 
 #include <glm/vec4.hpp>
 
@@ -77,38 +77,40 @@ std::string term_defines(const TransferLayout& layout);
 /// `term_defines`.
 std::string constants_shader(const ClusteredTransfer& transfer, ShaderLanguage language);
 
-/// Type of the shader pass that lights a lightmap.
-enum class LightmapPass {
-    compute,  ///< compute shader prt_lightmap.comp: only ShaderLanguage::glsl450 and vulkan
-    fragment, ///< fragment shader prt_lightmap.frag, drawn over the map: every language
-};
+/// Returns the lines of #define for shaders/prt_texels.comp: those of `relight_defines`, the number of
+/// outputs and the format of the image. Throws `Error` for TexelFormat::rgb9e5, which shaders cannot write,
+/// and the errors of `relight_defines`.
+std::string texel_defines(const ClusteredTransfer& transfer, TexelFormat format = TexelFormat::rgba16,
+                          ConstantSource constants = ConstantSource::buffer,
+                          ShaderLanguage language = ShaderLanguage::glsl450);
 
-/// Returns the complete shader of a pass that computes the exit radiance, for albedo 1, of the texels of a
-/// lightmap. `transfer` must have packed weights and no predictors. Throws the errors of `relight_defines`,
-/// and `Error` for LightmapPass::compute in OpenGL 3.3 and ES 3.0.
-std::string lightmap_shader(const ClusteredTransfer& transfer, LightmapPass pass, ConstantSource constants,
+/// Returns a complete compute shader that computes the texels of a lightmap or of the light texture of a
+/// volume (shaders/prt_texels.comp), from the constants of TextureRelighter::update_constants. `transfer`
+/// must have packed weights, of at most 8 words, and no predictors. Throws the errors of `texel_defines`, and
+/// `Error` in OpenGL 3.3 and ES 3.0.
+std::string texel_shader(const ClusteredTransfer& transfer, ShaderLanguage language,
+                         TexelFormat format = TexelFormat::rgba16,
+                         ConstantSource constants = ConstantSource::buffer);
+
+/// Returns a complete fragment shader, for every language, that computes the exit radiance, for albedo 1, of
+/// the texels of a lightmap when it is drawn over the map (shaders/prt_lightmap.frag). `transfer` must have
+/// packed weights and no predictors. Throws the errors of `relight_defines`.
+std::string lightmap_shader(const ClusteredTransfer& transfer, ConstantSource constants,
                             ShaderLanguage language);
 
 /// Returns the lines of #define for shaders/prt_volume.glsl, with all sizes of `volume` as constants.
-/// `format`: format of the light texture. Its sampler must clamp; for VolumeFormat::rgba16 it must also
+/// `format`: format of the light texture. Its sampler must clamp; for TexelFormat::rgba16 it must also
 /// filter linearly. The shader gets the positions of the Scene plus `seen_from`. `seen_from` 0: positions
 /// relative to Scene::origin. `seen_from` = Scene::origin: positions in the file's world. `volume` must have
 /// at least one brick.
-std::string volume_defines(const CompressedVolume& volume, VolumeFormat format = VolumeFormat::rgba16,
+std::string volume_defines(const CompressedVolume& volume, TexelFormat format = TexelFormat::rgba16,
                            const glm::dvec3& seen_from = glm::dvec3(0));
 
 /// Returns the GLSL functions that look up the light of a volume at a position (shaders/prt_volume.glsl), the
 /// same for every language. Insert them after the version line of a shader, in ES after
 /// `precision highp float`. The arguments are those of `volume_defines`.
-std::string volume_functions(const CompressedVolume& volume, VolumeFormat format = VolumeFormat::rgba16,
+std::string volume_functions(const CompressedVolume& volume, TexelFormat format = TexelFormat::rgba16,
                              const glm::dvec3& seen_from = glm::dvec3(0));
-
-/// Returns a complete compute shader that computes the light texture, in `format`, from constants
-/// (VolumeRelighter::update_constants) in storage buffers, as VolumeRelighter::update does on the CPU
-/// (shaders/prt_volume.comp). Throws `Error` for OpenGL 3.3 and ES 3.0, and for packed weights of more than 8
-/// words per probe. `volume` must have packed weights.
-std::string volume_shader(const CompressedVolume& volume, ShaderLanguage language,
-                          VolumeFormat format = VolumeFormat::rgba16);
 
 /// Returns the lines of #define for shaders/prt_lobes.glsl. `light_order`: number of bands of the incident
 /// light that the shader gets, 2..4; 0: the order of the model. Throws `Error` for any other `light_order`,

@@ -15,7 +15,7 @@ namespace prt {
 /// or loaded with TextureNeeds::all. Throws `Error` if the picture or a texture is larger than the device
 /// supports, if the picture has more than kMaxShadowedSuns suns, if GPU memory runs out, if the driver cannot
 /// build a program, or if the context is lost. Also throws the errors of `camera_frame`, and those of
-/// GlTransfer and GlLightmap for `picture.in_shader`.
+/// GlTransfer and GlRelitTextures for `picture.in_shader`.
 Image render_gl(const Picture& picture, const GlContext& context);
 
 } // namespace prt
