@@ -3,11 +3,10 @@
 #include "bake/pipeline/direct.h"
 
 #include "bake/pipeline/adaptive.h"
+#include "bake/pipeline/equal_rays.h"
 #include "bake/pipeline/sampling_error.h"
 #include "bake/pipeline/trace_gather.h"
 #include "bake/trace/trace_receivers.h"
-
-#include <fmt/core.h>
 
 #include <cmath>
 #include <numeric>
@@ -29,9 +28,29 @@ std::vector<std::uint32_t> trace_adaptively(const BakePlan& plan, Tracer& tracer
     direct.rays = std::accumulate(adaptive.rays.begin(), adaptive.rays.end(), adaptive.rays_checked);
     direct.sampling_error = adaptive.error;
     if (!adaptive.reached)
-        direct.notices.push_back(
-            fmt::format("the target error was not reached with {} rays per receiver", kMaxRays));
+        direct.notices.push_back(missed_target());
     return std::move(adaptive.rays);
+}
+
+/// Draws depth maps from the smallest number of directions that reaches the target error. All receivers share
+/// the directions, so that their noise is alike: `left` has no effect. Returns the number, [receivers].
+std::vector<std::uint32_t> draw_to_target(const BakePlan& plan, Tracer& tracer, TraceOptions options,
+                                          std::span<const std::uint32_t> indices, DirectLight& direct,
+                                          const Progress& progress) {
+    const Receivers& receivers = plan.receivers();
+    direct.transfer = zero_transfer(options.order, 1, receivers.size());
+    const EqualRays equal = equal_rays(*plan.options.target_error, [&](int rays) {
+        options.rays = rays;
+        trace_receivers(tracer, receivers, indices, options, direct.transfer, {{}, progress.stop});
+        const SamplingError sampling =
+            sampling_error(tracer, receivers, options, direct.transfer, progress.stop);
+        direct.rays += indices.size() * static_cast<std::size_t>(rays) + sampling.rays;
+        return sampling.error;
+    });
+    direct.sampling_error = equal.error;
+    if (!equal.reached)
+        direct.notices.push_back(missed_target());
+    return std::vector<std::uint32_t>(receivers.size(), static_cast<std::uint32_t>(equal.rays));
 }
 
 void add_gather(const BakePlan& plan, Tracer& tracer, const LampConnections* lamps,
@@ -85,8 +104,9 @@ DirectLight trace_direct(const BakePlan& plan, Tracer& tracer, const LampConnect
     if (halves)
         direct.half.emplace(plan, rays_of);
     if (adaptive) {
-        rays_of = trace_adaptively(plan, tracer, options, left, direct,
-                                   plan.bounces != 0 ? progress.range(0, 0.5) : progress);
+        const Progress part = plan.bounces != 0 ? progress.range(0, 0.5) : progress;
+        rays_of = traces ? trace_adaptively(plan, tracer, options, left, direct, part)
+                         : draw_to_target(plan, tracer, options, indices, direct, part);
     } else {
         direct.transfer = zero_transfer(options.order, 1, receivers.size());
     }

@@ -16,11 +16,9 @@ namespace {
 /// Finds sealed receivers. They take the light of their neighbours if the options request it.
 SealedIn find_sealed_in(const BakePlan& plan, Tracer& tracer, const Transfer& direct,
                         const std::stop_token& stop) {
-    // Depth maps do not resolve the last hundredth of visibility.
-    const double darkest = tracer.method() == BakeMethod::trace ? 0 : 0.01 * kY00;
     std::vector<std::uint32_t> dark;
     for (const std::uint32_t p : receivers_on_surfaces(plan.receivers()))
-        if (static_cast<double>(direct.vector(p)[0]) <= darkest)
+        if (static_cast<double>(direct.vector(p)[0]) <= max_dark(tracer))
             dark.push_back(p);
     const Sealed sealed =
         find_sealed(tracer, plan.scene, plan.receivers(), std::move(dark), plan.options.seed, stop);
@@ -40,10 +38,10 @@ SealedIn find_sealed_in(const BakePlan& plan, Tracer& tracer, const Transfer& di
 FitChoice fit_choice(const BakePlan& plan, Tracer& tracer, BakeStatistics& statistics,
                      const Progress& progress) {
     const BakeOptions& options = plan.options;
-    const bool possible = tracer.method() == BakeMethod::trace && !options.target_error;
-    if (options.fit == FitMode::vertex || !possible)
+    const bool compared = tracer.method() == BakeMethod::trace && !options.target_error;
+    if (options.fit == FitMode::vertex || (options.fit == FitMode::automatic && !compared))
         return {};
-    const FitTrial trial = try_fit(plan, tracer, progress);
+    const FitTrial trial = try_fit(plan, tracer.rays(), progress);
     FitChoice choice = choose_fit(trial, options.rays, options.repairs.denoise);
     choice.better = choice.better || options.fit == FitMode::surface;
     statistics.fit = {

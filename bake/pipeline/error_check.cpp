@@ -5,7 +5,6 @@
 #include "bake/pipeline/trace_gather.h"
 #include "bake/reference/back_reach.h"
 #include "bake/surface_fit/varied_samples.h"
-#include "bake/trace/embree_tracer.h"
 #include "bake/trace/scrambles.h"
 #include "bake/trace/sealed.h"
 #include "bake/trace/trace_receivers.h"
@@ -66,9 +65,7 @@ double squared_error(std::span<const float> baked, std::span<const float> first,
 ErrorCheck::ErrorCheck(const BakePlan& plan, Tracer& tracer, const Measured& measured,
                        const std::stop_token& stop)
     : plan_(plan) {
-    std::optional<EmbreeTracer> other; // depth maps are checked by rays, which do not have the error of depth
-                                       // maps
-    Tracer& rays = tracer.notes_hits() ? tracer : static_cast<Tracer&>(other.emplace(plan.scene));
+    Tracer& rays = tracer.rays(); // they do not have the error of depth maps
     choose_points(rays, measured, stop);
     add_backs();
     trace(rays, static_cast<double>(std::max(1, measured.direct.mean_rays)), stop);

@@ -3,6 +3,7 @@
 #include "bake/pipeline/fitted_light.h"
 
 #include "bake/device/gpu_failure.h"
+#include "bake/pipeline/equal_rays.h"
 #include "bake/pipeline/lamps_of_plan.h"
 #include "bake/pipeline/trace_gather.h"
 #include "bake/surface_fit/fit_noise.h"
@@ -34,11 +35,10 @@ struct SampleSums {
 class SampleTracer {
 public:
     SampleTracer(const BakePlan& plan, Tracer& tracer, const SurfaceSamples& samples,
-                 const FitEquations& equations, const LampConnections* lamps)
+                 const FitEquations& equations, const LampConnections* lamps, int rays)
         : plan_(plan), tracer_(tracer), samples_(samples), equations_(equations), lamps_(lamps),
           tests_(TestValues::of_sky(plan.options.order, 1)),
-          stride_(static_cast<std::size_t>(coefficient_count(plan.options.order))),
-          rays_(std::max(1, plan.options.rays / static_cast<int>(samples.layers))) {}
+          stride_(static_cast<std::size_t>(coefficient_count(plan.options.order))), rays_(rays) {}
 
     int rays_of_sample() const { return rays_; }
 
@@ -115,7 +115,7 @@ private:
         const auto note = [&](std::uint32_t g, std::span<const float> vector) {
             tests_.evaluate(vector,
                             std::span(sums.values).subspan(sample(g) * tests_.count(), tests_.count()));
-            if (vector[0] <= 0)
+            if (static_cast<double>(vector[0]) <= max_dark(tracer_))
                 sums.dark.push_back(static_cast<std::uint32_t>(sample(g)));
         };
         if (on_device)
@@ -286,13 +286,17 @@ MeasuredLamps measured_lamps(const BakePlan& plan, const FitEquations& equations
     return lamps;
 }
 
-} // namespace
+/// Division of the rays of each receiver.
+struct FitRays {
+    int samples; ///< samples that share them
+    int rays;    ///< rays of a receiver
+};
 
-FittedLight trace_fitted(const BakePlan& plan, Tracer& tracer, LastOfLamps last, int samples_each,
+FittedLight trace_fitted(const BakePlan& plan, Tracer& tracer, LastOfLamps last, const FitRays& each,
                          const Progress& progress) {
     const Surfaces& surfaces = plan.scene.surfaces();
     const std::size_t on_surfaces = receivers_on_surfaces(plan.receivers()).size();
-    const auto layers = static_cast<std::size_t>(samples_each);
+    const auto layers = static_cast<std::size_t>(each.samples);
     SurfaceSamples samples =
         sample_surfaces(surfaces, *plan.transport,
                         {.count = on_surfaces * layers, .layers = layers, .seed = plan.options.seed});
@@ -305,7 +309,8 @@ FittedLight trace_fitted(const BakePlan& plan, Tracer& tracer, LastOfLamps last,
                        progress.range(0, lit));
     const std::optional<LampConnections> connections =
         connections_to(plan, last, smooth_lamps(plan, alone, lamps).transfer);
-    SampleTracer traced(plan, tracer, samples, alone, connections ? &*connections : nullptr);
+    SampleTracer traced(plan, tracer, samples, alone, connections ? &*connections : nullptr,
+                        std::max(1, each.rays / each.samples));
     DirectLight direct;
     SampleSums sums = traced.trace(direct, progress.range(lit, 0.95));
 
@@ -336,7 +341,7 @@ FittedLight trace_fitted(const BakePlan& plan, Tracer& tracer, LastOfLamps last,
     std::vector<float> smooth = sky.light.sums;
     fit.smooth(std::span(smooth), stride);
     direct.transfer = of_receivers(plan, fit.equations, smooth);
-    direct.mean_rays = plan.options.rays;
+    direct.mean_rays = each.rays;
     direct.mean_visibility = mean_visibility(direct.transfer, plan.areas());
     direct.sampling_error = sky.noise;
     progress.update(1);
@@ -345,6 +350,27 @@ FittedLight trace_fitted(const BakePlan& plan, Tracer& tracer, LastOfLamps last,
             .lamps = std::move(lit_by_lamps),
             .fit = std::move(fit),
             .sealed = std::move(inside)};
+}
+
+} // namespace
+
+FittedLight trace_fitted(const BakePlan& plan, Tracer& tracer, LastOfLamps last, int samples,
+                         const Progress& progress) {
+    if (!plan.options.target_error)
+        return trace_fitted(plan, tracer, last, FitRays{samples, plan.options.rays}, progress);
+    std::optional<FittedLight> light;
+    std::size_t traced = 0;
+    const EqualRays equal = equal_rays(*plan.options.target_error, [&](int rays) {
+        light.reset(); // only one fits into memory
+        light.emplace(trace_fitted(plan, tracer, last, FitRays{samples, rays}, {{}, progress.stop}));
+        traced += light->direct.rays;
+        return light->direct.sampling_error;
+    });
+    light->direct.rays = traced;
+    if (!equal.reached)
+        light->direct.notices.push_back(missed_target());
+    progress.update(1);
+    return std::move(*light);
 }
 
 } // namespace prt

@@ -22,7 +22,8 @@ struct FittedLight {
     SealedIn sealed; ///< receivers without a sample outside geometry
 };
 
-/// Divides the rays of each receiver among `samples` samples. The gather operator keeps references to `plan`.
+/// Divides the rays of each receiver among `samples` samples. With a target error, traces the smallest number
+/// of rays whose noise after the fit is at most the target. The gather operator keeps references to `plan`.
 FittedLight trace_fitted(const BakePlan& plan, Tracer& tracer, LastOfLamps last, int samples,
                          const Progress& progress);
 

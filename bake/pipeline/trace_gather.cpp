@@ -33,7 +33,7 @@ GatherEstimate estimate_gather(const BakePlan& plan, Tracer& tracer, std::uint32
     TraceOptions options = gather_options(plan, std::min(rays, 4096u));
     options.order = 1;
     Transfer unused = zero_transfer(1, 1, receivers.size());
-    trace_receivers(tracer, receivers, some, options, unused, {{}, stop},
+    trace_receivers(tracer.rays(), receivers, some, options, unused, {{}, stop},
                     [&](std::uint32_t p, std::span<const Hit> hits) { rows.set_row(p, hits, options.rays); });
     const double bytes = empty + (static_cast<double>(rows.bytes()) - empty) *
                                      static_cast<double>(indices.size()) / static_cast<double>(count) * rays /

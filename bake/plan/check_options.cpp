@@ -17,12 +17,6 @@ void check_raster_options(const BakeOptions& options) {
         throw Error("--method raster does not support a distance fall-off; use --method trace");
     if (options.tracer.backend == Backend::cpu)
         throw Error("--method raster needs a GPU; do not use --device cpu");
-    if (options.bounces != 0)
-        throw Error("--method raster supports direct light only; use --method trace for bounces");
-    if (options.target_error)
-        throw Error("--method raster does not support --target-error; use --method trace");
-    if (options.fit == FitMode::surface)
-        throw Error("--method raster does not support --fit surface; use --method trace");
     if (options.tracer.raster_resolution < 16 || options.tracer.raster_resolution > 16384)
         throw Error("the resolution of depth maps must be in 16..16384");
 }
@@ -44,8 +38,6 @@ void check_options(const BakeOptions& options) {
                                 options.lamps.rays));
     if (options.target_error && !(*options.target_error > 0 && std::isfinite(*options.target_error)))
         throw Error("the target error must be finite and greater than 0");
-    if (options.target_error && options.fit == FitMode::surface)
-        throw Error("--target-error does not support --fit surface; use --fit vertex");
     if (!(options.subsurface.metres_per_unit > 0 && std::isfinite(options.subsurface.metres_per_unit)))
         throw Error("the number of metres per unit must be finite and greater than 0");
     check_falloff(options.tracer.falloff);

@@ -3,7 +3,9 @@
 
 #include "bake/raster/gl_rasterizer.h"
 
+#include "bake/trace/gather_product.h"
 #include "bake/trace/lamp_light.h"
+#include "bake/trace/trace_receivers.h"
 #include "bake/trace_gpu/gpu_receivers.h"
 #include "bake/trace_gpu/touching_triangles.h"
 #include "prt/core/error.h"
@@ -23,9 +25,11 @@ namespace prt {
 namespace {
 
 /// Returns evenly distributed directions over the sphere with a random rotation: the spherical Fibonacci
-/// lattice.
-std::vector<glm::vec3> even_directions(int count, std::uint64_t seed) {
-    std::mt19937_64 random(seed);
+/// lattice. Each range of rays has a separate rotation.
+std::vector<glm::vec3> even_directions(const TraceOptions& options) {
+    constexpr std::uint64_t kRange = 0x9e3779b97f4a7c15; // odd: ranges have different seeds
+    const int count = options.rays;
+    std::mt19937_64 random(options.seed + kRange * options.first_ray);
     const auto unit = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
     // A uniform rotation (Shoemake 1992).
     const double u = unit(), v = 2 * std::numbers::pi * unit(), w = 2 * std::numbers::pi * unit();
@@ -108,9 +112,20 @@ private:
     GlObject gpu_sums_;
 };
 
-GlRasterizer::GlRasterizer(std::unique_ptr<GlContext> context, const TraceScene& scene, int resolution)
-    : context_(std::move(context)), scene_(scene), raster_scene_(scene),
+GlRasterizer::GlRasterizer(std::unique_ptr<GlContext> context, const TraceScene& scene, int resolution,
+                           MakeRays make_rays)
+    : context_(std::move(context)), scene_(scene), make_rays_(std::move(make_rays)), raster_scene_(scene),
       maps_(raster_scene_, bounds(scene.scene()), resolution, has_blended(scene.scene(), scene.surfaces())) {}
+
+Tracer& GlRasterizer::rays() {
+    if (!rays_)
+        rays_ = make_rays_();
+    return *rays_;
+}
+
+std::string GlRasterizer::device() const {
+    return context_->renderer() + (rays_ ? "; rays: " + rays_->device() : "");
+}
 
 std::size_t GlRasterizer::batch_size(const TraceOptions& options) const {
     GLint64 largest = 0;
@@ -124,16 +139,17 @@ void GlRasterizer::trace(const Receivers& receivers, std::span<const std::uint32
                          const TraceOptions& options, std::span<float> vectors, const HitSink& sink,
                          const Progress& progress) {
     if (sink)
-        throw Error("--method raster cannot report ray hits; use --method trace");
+        trace_hits(receivers, indices, options, sink, progress.range(0, 0.5));
+    const Progress drawing = sink ? progress.range(0.5, 1) : progress;
     Stopwatch transfer;
     Batch batch(scene_, receivers, indices, options);
     seconds_.transfer += transfer.seconds();
     raster_scene_.bind();
     batch.bind();
     maps_.bind();
-    const std::vector<glm::vec3> directions = even_directions(options.rays, options.seed);
+    const std::vector<glm::vec3> directions = even_directions(options);
     for (std::size_t begin = 0; begin < directions.size(); begin += maps_.at_once()) {
-        progress.update(static_cast<double>(begin) / static_cast<double>(directions.size()));
+        drawing.update(static_cast<double>(begin) / static_cast<double>(directions.size()));
         const auto part =
             std::span(directions).subspan(begin, std::min(maps_.at_once(), directions.size() - begin));
         look_up(part, options.order, indices.size());
@@ -145,6 +161,24 @@ void GlRasterizer::trace(const Receivers& receivers, std::span<const std::uint32
     for (std::size_t i = 0; i < indices.size(); ++i)
         write_transfer(receivers.normals[indices[i]], options.order, sums.subspan(i * columns, columns),
                        vectors.subspan(i * coefficients, coefficients));
+}
+
+/// Calls `sink` with the hits of rays; their own direct light is not used.
+void GlRasterizer::trace_hits(const Receivers& receivers, std::span<const std::uint32_t> indices,
+                              const TraceOptions& options, const HitSink& sink, const Progress& progress) {
+    const Stopwatch watch;
+    TraceOptions of_hits = options;
+    of_hits.order = 1;
+    std::size_t first = 0;
+    in_batches(rays(), indices, of_hits, progress,
+               [&](std::span<const std::uint32_t> batch, const Progress& part) {
+                   std::vector<float> unused(batch.size());
+                   rays().trace(
+                       receivers, batch, of_hits, unused,
+                       [&](std::size_t i, std::span<const Hit> hits) { sink(first + i, hits); }, part);
+                   first += batch.size();
+               });
+    seconds_.trace += watch.seconds();
 }
 
 const GlObject& GlRasterizer::program(int order, bool peel) {
@@ -184,7 +218,11 @@ void GlRasterizer::dispatch(const GlObject& shader, std::size_t receivers, std::
 }
 
 LampLight GlRasterizer::lamp_light(const LampTask& task, const Progress& progress) {
-    return lamp_light_on_cpu(task, progress);
+    return rays().lamp_light(task, progress);
+}
+
+std::unique_ptr<GatherProduct> GlRasterizer::gather_product(const GatherOperator& gather) {
+    return rays().gather_product(gather);
 }
 
 } // namespace prt

@@ -31,10 +31,6 @@ void check_options(const BakeOptions& options, const RefineOptions& how) {
     check_order(options.order);
     if (!(how.target > 0 && std::isfinite(how.target)))
         throw Error("the error of --refine must be finite and greater than 0");
-    if (options.tracer.method == BakeMethod::raster)
-        throw Error("--refine does not support --method raster; use --method trace");
-    if (options.target_error)
-        throw Error("--refine and --target-error cannot be combined");
     if (options.fit == FitMode::vertex)
         throw Error("--refine does not support --fit vertex; use --fit auto or surface");
 }
@@ -165,7 +161,7 @@ RefineResult refine(const Scene& scene, const BakeOptions& options, const Refine
     direct.bounces = 0;
     const TraceScene traced = trace_scene(scene, choose_media(scene, options), direct);
     const std::unique_ptr<Tracer> tracer = make_tracer(traced, options.tracer);
-    RefineResult result = Refiner(scene, traced, *tracer, options, how).run(progress);
+    RefineResult result = Refiner(scene, traced, tracer->rays(), options, how).run(progress);
     result.statistics.seconds = all.seconds();
     return result;
 }

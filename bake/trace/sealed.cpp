@@ -2,12 +2,11 @@
 
 #include "bake/trace/sealed.h"
 
-#include "bake/trace/embree_tracer.h"
 #include "bake/trace/trace_receivers.h"
+#include "prt/core/sh_basis.h"
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace prt {
 namespace {
@@ -41,6 +40,10 @@ void accept_groups(const std::vector<float>& backs, int probes, std::vector<std:
 
 } // namespace
 
+double max_dark(const Tracer& tracer) {
+    return tracer.method() == BakeMethod::raster ? 0.01 * kY00 : 0;
+}
+
 double backs_of(const Surfaces& surfaces, std::span<const Hit> hits) {
     double backs = 0;
     for (const Hit& hit : hits)
@@ -63,16 +66,14 @@ Sealed find_sealed(Tracer& tracer, const TraceScene& scene, const Receivers& rec
                    std::vector<std::uint32_t> dark, std::uint64_t seed, const std::stop_token& stop,
                    int probes) {
     Sealed result{std::vector<bool>(receivers.size()), 0};
-    std::optional<EmbreeTracer> on_cpu;
-    Tracer& prober = tracer.notes_hits() ? tracer : on_cpu.emplace(scene);
     std::vector<float> backs(receivers.size(), kNotSealed); // for receivers that may be sealed
     // Traces few rays for all receivers, and more for receivers that may be sealed.
     for (const int some : {kFirstRays, 64, 256, probes}) {
         const bool last = some >= probes;
         const int rays = last ? probes : some;
         Transfer unused = zero_transfer(1, 1, receivers.size());
-        trace_receivers(prober, receivers, dark, {.order = 1, .rays = rays, .seed = seed}, unused, {{}, stop},
-                        [&](std::uint32_t p, std::span<const Hit> hits) {
+        trace_receivers(tracer.rays(), receivers, dark, {.order = 1, .rays = rays, .seed = seed}, unused,
+                        {{}, stop}, [&](std::uint32_t p, std::span<const Hit> hits) {
                             backs[p] = looks_sealed(scene.surfaces(), hits, rays, !last)
                                            ? static_cast<float>(backs_of(scene.surfaces(), hits))
                                            : kNotSealed;

@@ -45,7 +45,6 @@ void in_batches(const Tracer& tracer, std::span<const std::uint32_t> indices, co
 void trace_receivers(Tracer& tracer, const Receivers& receivers, std::span<const std::uint32_t> indices,
                      const TraceOptions& options, const VectorSink& take, const Progress& progress,
                      const ReceiverSink& sink) {
-    assert(!sink || tracer.notes_hits());
     const auto dimension = static_cast<std::size_t>(coefficient_count(options.order));
     std::vector<float> vectors;
     in_batches(tracer, indices, options, progress,

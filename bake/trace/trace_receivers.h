@@ -17,9 +17,8 @@ using ReceiverSink = std::function<void(std::uint32_t receiver, std::span<const 
 using VectorSink = std::function<void(std::uint32_t receiver, std::span<const float> vector)>;
 
 /// Traces the receivers with the indices `indices` and calls `vectors` with the direct transfer of each, in
-/// the order of `indices`. `sink`, if not empty, gets the hits of each receiver, and the tracer must then
-/// support hits (Tracer::notes_hits). Throws `Cancelled` after a stop request, which is checked before each
-/// batch and at the end, and the errors of Tracer::trace.
+/// the order of `indices`. `sink`, if not empty, gets the hits of each receiver. Throws `Cancelled` after a
+/// stop request, which is checked before each batch and at the end, and the errors of Tracer::trace.
 void trace_receivers(Tracer& tracer, const Receivers& receivers, std::span<const std::uint32_t> indices,
                      const TraceOptions& options, const VectorSink& vectors, const Progress& progress = {},
                      const ReceiverSink& sink = {});
@@ -39,8 +38,8 @@ void in_batches(const Tracer& tracer, std::span<const std::uint32_t> indices, co
 
 /// Traces the receivers with the indices `indices` and replaces their vectors in `transfer`, which has one
 /// term with one channel of options.order: [receivers][order²]. Vectors of other receivers are not changed.
-/// `sink`, if not empty, gets the hits of each receiver, and the tracer must then support hits
-/// (Tracer::notes_hits). Throws `Cancelled` after a stop request, and the errors of Tracer::trace.
+/// `sink`, if not empty, gets the hits of each receiver. Throws `Cancelled` after a stop request, and the
+/// errors of Tracer::trace.
 void trace_receivers(Tracer& tracer, const Receivers& receivers, std::span<const std::uint32_t> indices,
                      const TraceOptions& options, Transfer& transfer, const Progress& progress = {},
                      const ReceiverSink& sink = {});
@@ -64,9 +63,8 @@ struct TracedHalves {
 
 /// Traces the receivers with the indices `indices` and replaces their vectors in both members of `to`. The
 /// difference of the two results serves for an estimate of the noise of the rays. The first half has
-/// `first_half(options.rays)` rays, which must not be 0. The tracer must support ranges of rays
-/// (Tracer::notes_hits). `sink`, if not empty, gets the hits of each receiver. Throws `Cancelled` after a
-/// stop request, and the errors of Tracer::trace.
+/// `first_half(options.rays)` rays, which must not be 0. `sink`, if not empty, gets the hits of each
+/// receiver. Throws `Cancelled` after a stop request, and the errors of Tracer::trace.
 void trace_in_halves(Tracer& tracer, const Receivers& receivers, std::span<const std::uint32_t> indices,
                      const TraceOptions& options, const TracedHalves& to, const Progress& progress = {},
                      const HalvesSink& sink = {});

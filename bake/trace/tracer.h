@@ -24,7 +24,8 @@ struct LampTask;
 
 /// Rays of one call of `Tracer::trace`. The rays of a receiver are a part of a fixed sequence, which depends
 /// only on the index of the receiver and on `seed`. Tracing rays 0..63 and then rays 64..127 therefore uses
-/// the same rays as tracing 0..127.
+/// the same rays as tracing 0..127. Only BakeMethod::raster has separate directions for each range, the same
+/// for all receivers.
 struct TraceOptions {
     int order = 6;          ///< order of the transfer
     int rays = 1024;        ///< number of rays per receiver, at least 1; for BakeMethod::raster the number of
@@ -56,9 +57,9 @@ public:
     virtual Backend backend() const = 0;
     /// Returns the method that samples visibility.
     virtual BakeMethod method() const { return BakeMethod::trace; }
-    /// Returns whether `trace` supports hits (a sink) and ranges of rays (TraceOptions::first_ray). If false,
-    /// the sink must be empty and `first_ray` 0.
-    virtual bool notes_hits() const { return true; }
+    /// Returns a tracer of rays for the same scene: this one, except for depth maps. Callers that need only
+    /// hits use it, because depth maps take no time there.
+    virtual Tracer& rays() { return *this; }
     virtual std::string device() const = 0; ///< name of the device, one line for reports
     /// Returns the recommended number of receivers for one call of `trace`, at least 1. A call then takes
     /// about a tenth of a second on a CPU, so that the caller can check for stop requests between calls. On a
@@ -66,10 +67,10 @@ public:
     virtual std::size_t batch_size(const TraceOptions& options) const = 0;
     /// Computes the direct transfer with shadows (docs/math.md, eq. 9) of the receivers with the indices
     /// `indices`, and writes it to `vectors`: [indices][order²], in the order of `indices`. `sink`, if not
-    /// empty, gets the hits of each receiver; it must be empty unless `notes_hits()`. The receivers must have
-    /// normals that are not zero. Tracers on a GPU report to `progress` and throw `Cancelled` after a stop
-    /// request; the tracer on the CPU ignores `progress`. Throws `Error` if a GPU fails, unless the tracer
-    /// continues on the CPU (Backend::automatic).
+    /// empty, gets the hits of each receiver, from rays also if depth maps compute the transfer. The
+    /// receivers must have normals that are not zero. Tracers on a GPU report to `progress` and throw
+    /// `Cancelled` after a stop request; the tracer on the CPU ignores `progress`. Throws `Error` if a GPU
+    /// fails, unless the tracer continues on the CPU (Backend::automatic).
     virtual void trace(const Receivers& receivers, std::span<const std::uint32_t> indices,
                        const TraceOptions& options, std::span<float> vectors, const HitSink& sink = {},
                        const Progress& progress = {}) = 0;

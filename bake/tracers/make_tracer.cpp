@@ -12,6 +12,8 @@
 namespace prt {
 namespace {
 
+std::unique_ptr<Tracer> make_ray_tracer(const TraceScene& scene, const TracerChoice& choice);
+
 std::unique_ptr<Tracer> make_rasterizer(const TraceScene& scene, const TracerChoice& choice) {
     const bool any = choice.backend == Backend::gpu;
     std::string why;
@@ -19,7 +21,9 @@ std::unique_ptr<Tracer> make_rasterizer(const TraceScene& scene, const TracerCho
     if (!context)
         throw Error("--method raster needs OpenGL 4.5, which is not available (" + why + ")" +
                     (any ? "" : "; --device auto accepts hardware only, --device gpu also software"));
-    return std::make_unique<GlRasterizer>(std::move(context), scene, choice.raster_resolution);
+    return std::make_unique<GlRasterizer>(
+        std::move(context), scene, choice.raster_resolution,
+        [&scene, traversal = choice.traversal] { return make_ray_tracer(scene, {.traversal = traversal}); });
 }
 
 /// Throws `Error` if there is no such device, and if the scene does not fit into its memory.

@@ -3,6 +3,7 @@
 #include "cli/arguments/texel_arguments.h"
 
 #include "bake/products/lightmaps/unwrap.h"
+#include "bake/reference/scene_lamps.h"
 #include "cli/arguments/options.h"
 #include "cli/arguments/suboptions.h"
 #include "cli/program/session.h"
@@ -11,6 +12,7 @@
 #include <fmt/core.h>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -55,6 +57,16 @@ TexelRoom unwrapped(const TexelArguments& a, const Path& path, GltfDocument& doc
             {{"charts", unwrapping.charts}, {"texels_per_metre", unwrapping.texels_per_metre}}};
 }
 
+/// Adds the lights of `scene` to the detailed model, except those with the name of one of its lamps.
+void add_lights(const Scene& scene, Scene& finer) {
+    const std::vector<TransferTerm> own = lamps_of(finer);
+    for (PunctualLight light : scene.lights)
+        if (std::ranges::none_of(own, [&](const TransferTerm& lamp) { return lamp.name == light.name; })) {
+            light.position += glm::vec3(scene.origin - finer.origin);
+            finer.lights.push_back(std::move(light));
+        }
+}
+
 } // namespace
 
 CLI::Option* add_texels(CLI::App* command, TexelArguments& a, const std::string& text) {
@@ -78,19 +90,21 @@ CLI::Option* add_texels(CLI::App* command, TexelArguments& a, const std::string&
                  [&a](const std::string& name) { a.texels.atlases = chosen("--texels", kAtlasModes, name); })
             .detail("  auto: one if the charts of all objects do not overlap or the set is new, else each")
             .add(command);
-    Suboptions("--high-poly", "FILE",
-               "trace rays against this detailed model instead of the scene\n"
-               "needs --texels; FILE: .gltf or .glb, in the coordinate frame of the scene\n"
-               "a texel is measured on the outermost detailed surface along its normal, within the distance\n"
-               "  outwards and inwards, that faces the same way; if it is missing, on the scene\n"
-               "  an error if it is missing for all texels\n"
-               "prt bake: bounces and lamps are also those of FILE; probes of --volume ignore FILE\n"
-               "--no-shadow has no effect on this model",
-               [&a](const std::string& file) {
-                   if (file.empty())
-                       throw CLI::ValidationError("--high-poly", "the name of the file is empty");
-                   a.high_poly = file;
-               })
+    Suboptions(
+        "--high-poly", "FILE",
+        "trace rays against this detailed model instead of the scene\n"
+        "needs --texels; FILE: .gltf or .glb, in the coordinate frame of the scene\n"
+        "a texel is measured on the outermost detailed surface along its normal, within the distance\n"
+        "  outwards and inwards, that faces the same way; if it is missing, on the scene\n"
+        "  an error if it is missing for all texels\n"
+        "prt bake: bounces, emissive materials and the light of probes (--volume) are also those of FILE\n"
+        "  lights: those of FILE, and those of the scene whose names FILE does not contain\n"
+        "--no-shadow has no effect on this model",
+        [&a](const std::string& file) {
+            if (file.empty())
+                throw CLI::ValidationError("--high-poly", "the name of the file is empty");
+            a.high_poly = file;
+        })
         .number("distance", 1e-9, 1e9,
                 "maximum distance from the scene, metres [diagonal of its bounding box / 50]",
                 [&a](double metres) { a.distance = metres; })
@@ -114,6 +128,7 @@ Finer load_finer(const TexelArguments& a, const GltfOptions& reading, const Scen
         return finer;
     finer.scene = extract_scene(load_gltf(a.high_poly, reading));
     print_notices(a.high_poly.string(), finer.scene->notices);
+    add_lights(scene, *finer.scene);
     const Bounds box = bounds(scene);
     finer.distance = a.distance.value_or(static_cast<double>(glm::distance(box.low, box.high)) / 50);
     return finer;

@@ -45,9 +45,8 @@ void add_volume(CLI::App* command, VolumeArguments& arguments) {
                 volume.spacing = *metres;
             })
             .detail("METRES: distance between probes near surfaces, 1e-9 to 1e9; it is larger in open space\n"
-                    "probes receive light from the scene, not from the model of --high-poly")
-            .detail("not with --target-error, --method raster or --instances shared; --instances auto acts "
-                    "as own")
+                    "with --high-poly, probes receive the light of that model")
+            .detail("not with --instances shared; --instances auto acts as own")
             .whole_number("probes", 125, 1 << 28,
                           "instead of METRES, as --volume probes=4000: at most N probes, 125 to 2^28",
                           [&volume, check_one](int count) {
@@ -61,12 +60,14 @@ void add_volume(CLI::App* command, VolumeArguments& arguments) {
             .whole_number("order", 2, kMaxIncidentOrder,
                           "SH order of the light that arrives at a probe, 2 to 4 [3]",
                           [&volume](int order) { volume.order = order; })
-            .number("fit", 0, 100,
-                    fmt::format(
-                        "fit probes to X points per cell; 0: no fit [1 if --rays is at least {}, else 0]\n"
-                        "  0 to 100, mean number of random points where light is measured",
-                        kRaysWorthAFit),
-                    [&volume](double points) { volume.fit_points = points; })
+            .whole_number("rays", 1, kMaxRays, "rays per probe, 1 to 2^24 [--rays]",
+                          [&volume](int rays) { volume.rays = rays; })
+            .number(
+                "fit", 0, 100,
+                fmt::format("fit probes to X points per cell; 0: no fit [1 for at least {} rays, else 0]\n"
+                            "  0 to 100, mean number of random points where light is measured",
+                            kRaysWorthAFit),
+                [&volume](double points) { volume.fit_points = points; })
             .key("bounds", "x0,y0,z0,x1,y1,z1",
                  "corners of the volume, world space, metres [box of the scene]\n"
                  "  x0 < x1, y0 < y1, z0 < z1",

@@ -24,9 +24,11 @@
 #include "prt/bake/refine.h"
 #include "prt/core/error.h"
 #include "prt/gltf/transfer_gltf.h"
+#include "runtime/support/printable.h"
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace prt::cli {
@@ -51,10 +53,9 @@ struct BakeArguments {
 constexpr Choice<BakeMethod> kBakeMethods[] = {
     {"trace", BakeMethod::trace, "rays, traced by the processor of --device"},
     {"raster", BakeMethod::raster,
-     "depth maps from --rays N directions, by OpenGL 4.5; only direct light at vertices\n"
-     "  not with --bounces above 0, --texels, --volume, --refine, --target-error, --fit surface\n"
+     "depth maps from --rays N directions, by OpenGL 4.5, for direct light of the sky at surfaces\n"
+     "  bounces, lamps, probes of --volume and errors for --refine: rays, as with --method trace\n"
      "  not with --instances shared; --instances auto acts as own\n"
-     "  light of lamps is traced by rays on the CPU\n"
      "  --device auto: a hardware GPU, else error; gpu: also a software driver; others: error"}};
 constexpr Choice<std::optional<TransferStorage>> kStorages[] = {
     {"auto", std::nullopt,
@@ -181,8 +182,7 @@ void add_transport(CLI::App* command, BakeOptions& options) {
             "--bounces", [&options](const std::string& text) { options.bounces = parse_bounces(text); },
             "number of bounces between surfaces; 0: direct light only\n"
             "N: 0 to 10000; inf: all bounces, until the remaining light is negligible\n"
-            "  inf is an error for lamps in a closed room that reflects all light (base color 1)\n"
-            "only 0 with --method raster")
+            "  inf is an error for lamps in a closed room that reflects all light (base color 1)")
         ->type_name("N|inf")
         ->default_str("0");
     add_subsurface(command, options.subsurface);
@@ -234,7 +234,7 @@ void add_method(CLI::App* command, BakeOptions& options) {
             "not with --texels\n"
             "with --refine: auto acts as surface; vertex is an error\n"
             "with --target-error, --method raster and shared instances: auto acts as vertex\n"
-            "  surface is an error there; with --instances auto, it bakes each instance as own");
+            "  surface: an error with --instances shared; --instances auto then acts as own");
     Suboptions("--method", names_of(kBakeMethods), "method that finds which directions are blocked",
                [&options](const std::string& name) {
                    options.tracer.method = chosen("--method", kBakeMethods, name);
@@ -259,9 +259,8 @@ void add_refinement(CLI::App* command, BakeArguments& a) {
                 "  light of the sky, not of lamps")
         .detail("the written mesh contains the new vertices; coarser levels of detail are not split")
         .detail("stops earlier at the maximum number of vertices, and at very short edges; default: no split")
-        .detail(
-            "fits light to the surface (--fit surface); not with --fit vertex, --target-error, --texels,\n"
-            "  --method raster, --instances shared; --instances auto acts as own")
+        .detail("fits light to the surface (--fit surface); not with --fit vertex, --texels and\n"
+                "  --instances shared; --instances auto acts as own")
         .whole_number("vertices", 1, std::numeric_limits<int>::max(),
                       "maximum number of vertices, 1 or more [4 x those of the scene, at least 20000]",
                       [&a](int count) { a.finer.max_vertices = static_cast<std::size_t>(count); })
@@ -311,7 +310,7 @@ SidesRequest sides_of(const BakeArguments& a) {
             .notify = print_notices};
 }
 
-/// Bakes the requested volume.
+/// Bakes the requested volume of the light of `scene`.
 std::optional<VolumeBake> bake_probes(const BakeArguments& a, const Scene& scene, Session& session) {
     if (!a.volume.given())
         return std::nullopt;
@@ -321,7 +320,7 @@ std::optional<VolumeBake> bake_probes(const BakeArguments& a, const Scene& scene
     });
 }
 
-/// Returns the file with the surface transfer in `document`, and with its volume.
+/// Returns the file with the surface transfer in `document`, and with its volume, which was baked in `scene`.
 std::vector<std::byte> with_volume(const BakeArguments& a, GltfDocument& document, const Scene& scene,
                                    const std::optional<VolumeBake>& volume) {
     return about(a.scene, [&] {
@@ -386,21 +385,32 @@ void run_vertices(const BakeArguments& a, GltfDocument& document, Scene& scene, 
     publish(report, a.json, session);
 }
 
+/// Prints a notice for each emissive material of the scene that the model of --high-poly does not contain.
+void note_missing_lamps(const BakeArguments& a, const Scene& scene, const Scene& finer) {
+    const std::vector<TransferTerm> baked = lamps_of(finer);
+    for (const TransferTerm& lamp : lamps_of(scene))
+        if (std::ranges::none_of(baked, [&](const TransferTerm& other) { return other.name == lamp.name; }))
+            print_notices(a.scene.string(),
+                          {fmt::format("the model of --high-poly has no emissive material '{}': this lamp "
+                                       "is not baked",
+                                       printable(lamp.name))});
+}
+
 void run_texels(const BakeArguments& a, GltfDocument& document, Scene& scene, const TexelRoom& room,
                 Session& session) {
     const Finer finer = load_finer(a.texels, a.reading, scene);
-    if (finer.scene && a.options.lamps.mode != LampMode::none && !lamps_of(scene).empty())
-        print_notices(a.scene.string(),
-                      {"its lamps are ignored: with --high-poly, the lamps of that file are baked"});
+    if (finer.scene && a.options.lamps.mode != LampMode::none)
+        note_missing_lamps(a, scene, *finer.scene);
     leave_out_shadows(scene, a.no_shadow);
     const LightmapBake baked = about(a.scene, [&] {
         ProgressBar bar = session.progress_bar("baking");
         return bake_lightmap(scene, room.atlases, a.options, finer.model(), bar.progress());
     });
     note_lights(a, scene, baked.lightmap.baked.transfer, baked.lightmap.areas);
-    const std::optional<VolumeBake> volume = bake_probes(a, scene, session);
+    const Scene& lit = finer.scene ? *finer.scene : scene;
+    const std::optional<VolumeBake> volume = bake_probes(a, lit, session);
     about(a.scene, [&] { write_lightmap(document, scene, baked.lightmap); });
-    const std::vector<std::byte> file = with_volume(a, document, scene, volume);
+    const std::vector<std::byte> file = with_volume(a, document, lit, volume);
     Report report = lightmap_report(
         {.output = a.output.string(), .scene = scene, .bake = baked, .bytes = session.write(a.output, file)});
     add_figures(report, room.figures);
@@ -453,9 +463,6 @@ void check_arguments(const BakeArguments& a) {
             "--refine and --texels cannot be combined: --refine splits triangles for light at vertices");
     if (a.finer.max_vertices > 0 && !a.finer.refine)
         throw CLI::ValidationError("--refine", "needs an error, as --refine 0.02,vertices=50000");
-    if ((a.texels.given() || a.volume.given()) &&
-        (a.options.tracer.method == BakeMethod::raster || a.options.target_error))
-        throw Error("--method raster and --target-error do not support --texels and --volume");
     const LampOptions usual;
     if (a.options.lamps.mode == LampMode::none &&
         (!a.options.lamps.groups.empty() || a.options.lamps.radius != usual.radius ||
@@ -520,7 +527,7 @@ void add_bake(CLI::App& app, Session& session) {
             ->add_option(
                 "--rays", a.options.rays,
                 "number of rays per vertex, texel or probe, 1 to 2^24\n"
-                "not with --target-error; rays to lamps: --lamps all,rays=N\n"
+                "not with --target-error (probes: --volume METRES,rays=N); to lamps: --lamps all,rays=N\n"
                 "with --method raster: number of directions of depth maps, the same for all vertices")
             ->capture_default_str()
             ->check(CLI::Range(1, kMaxRays));
@@ -530,7 +537,8 @@ void add_bake(CLI::App& app, Session& session) {
             "trace rays until direct light has at most this relative L2 noise\n"
             "X: above 0; 0.01: 1 %; over the whole surface, before --denoise; sky only, not lamps\n"
             "the number of rays differs between vertices, at most 2^24 each; default: that of --rays\n"
-            "not with --rays, --texels, --volume, --refine, --fit surface, --method raster,\n"
+            "  it is the same for all with --texels, --fit surface, --refine and --method raster\n"
+            "no effect on probes of --volume and on the errors for --refine; not with --rays and\n"
             "  --instances shared")
         ->check(above_zero())
         ->excludes(rays);
@@ -545,7 +553,7 @@ void add_bake(CLI::App& app, Session& session) {
                    "\nalways shared if --instances shares transfer, and for --texels without unwrap");
     add_texels(command, a.texels,
                "bake lightmaps instead of vertices: N x N texels, or N per metre\n"
-               "not with --fit, --refine, --target-error, --method raster and --instances shared\n"
+               "not with --fit, --refine and --instances shared\n"
                "not for materials with subsurface scattering or diffuse transmission")
         ->excludes(command->get_option("--fit")); // texels measure light at their centers
     add_volume(command, a.volume);

@@ -130,6 +130,25 @@ TEST(TargetError, WorksWithBounces) {
     EXPECT_GT(result.baked.record.rays, 64);
 }
 
+TEST(TargetError, IsReachedByFitsToTheSurface) {
+    const Scene scene = balls_over_floor();
+    BakeOptions options = cpu_options();
+    options.order = 3;
+    options.fit = FitMode::surface;
+    options.rays = 1 << 14;
+    const Transfer reference = bake(scene, options).baked.transfer;
+    for (const double target : {0.03, 0.01}) {
+        options.target_error = target;
+        const BakeResult result = bake(scene, options);
+        EXPECT_TRUE(result.baked.record.fitted);
+        EXPECT_LE(result.statistics.sampling_error, target);
+        // The samples are the same: only noise, and smoothness weights that depend on it, differ.
+        const double error = relative_l2(reference, result.baked.transfer, receiver_areas(scene));
+        EXPECT_LT(error, 1.25 * target);
+        EXPECT_GT(error, 0.2 * target); // no rays thrown away
+    }
+}
+
 TEST(SamplingError, IsEstimatedForEveryBake) {
     const Scene scene = balls_over_floor();
     for (const int rays : {100, 1024}) {

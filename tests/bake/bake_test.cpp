@@ -119,14 +119,6 @@ TEST(Bake, ReportsLimitsOfDepthMaps) {
     options.tracer.backend = Backend::cpu;
     expect_refusal(options, "needs a GPU");
     options = raster;
-    for (const int bounces : {1, 2, kEndlessBounces}) {
-        options.bounces = bounces;
-        expect_refusal(options, "direct light only");
-    }
-    options = raster;
-    options.target_error = 0.1;
-    expect_refusal(options, "does not support --target-error");
-    options = raster;
     for (const int resolution : {15, 16385}) {
         options.tracer.raster_resolution = resolution;
         expect_refusal(options, "16..16384");

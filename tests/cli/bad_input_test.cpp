@@ -169,12 +169,10 @@ TEST_F(BadInput, MissingOrUnselectedGpus) {
     EXPECT_EQ(prt({"bench", "--device", "list"}).status, 0);
 }
 
-TEST_F(BadInput, RasterWithBouncesOrOnTheCpu) {
+TEST_F(BadInput, RasterOnTheCpuOrWithSharedTransfer) {
     const auto scene = good();
-    refuse_bake(scene, {"--method", "raster", "--bounces", "1"});
     refuse_bake(scene, {"--method", "raster", "--device", "cpu"});
-    refuse_bake(scene, {"--method", "raster", "--target-error", "0.1"});
-    refuse_bake(scene, {"--method", "raster", "--fit", "surface"});
+    refuse_bake(scene, {"--method", "raster", "--instances", "shared"});
 }
 
 TEST_F(BadInput, CoefficientsAboveTheRangeOfFloat16) {
@@ -192,10 +190,6 @@ TEST_F(BadInput, CoefficientsAboveTheRangeOfFloat16) {
 TEST_F(BadInput, SettingsOfSharedTransferWithoutSharing) {
     refuse_bake(good(), {"--instances", "own,error=0.1"});
     refuse_bake(good(), {"--instances", "samples=64"});
-}
-
-TEST_F(BadInput, FitsToAnErrorOfVertices) {
-    refuse_bake(good(), {"--fit", "surface", "--target-error", "0.1"});
 }
 
 TEST_F(BadInput, MediaForMissingMaterials) {

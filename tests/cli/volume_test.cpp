@@ -10,8 +10,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <random>
 
 namespace prt::test {
@@ -34,6 +36,58 @@ protected:
         EXPECT_FALSE(std::filesystem::exists(folder / "baked.glb"));
     }
 };
+
+/// The model is the scene with dark materials; a light is only in the scene, another one in both files.
+TEST_F(Volumes, ReceiveTheLightOfTheHighPolyModel) {
+    const auto light = [](GlbFile& file, const char* name, double intensity) {
+        file.json["extensionsUsed"].push_back("KHR_lights_punctual");
+        nlohmann::ordered_json& lights = file.json["extensions"]["KHR_lights_punctual"]["lights"];
+        file.json["scenes"][0]["nodes"].push_back(file.json["nodes"].size());
+        file.json["nodes"].push_back({{"name", name},
+                                      {"translation", {0, 1, 0}},
+                                      {"extensions", {{"KHR_lights_punctual", {{"light", lights.size()}}}}}});
+        lights.push_back({{"type", "point"}, {"intensity", intensity}});
+    };
+    GlbFile scene = read_glb(folder / kScene), dark = scene;
+    for (auto& material : dark.json["materials"])
+        material["pbrMetallicRoughness"]["baseColorFactor"] = {0.1, 0.1, 0.1, 1};
+    GlbFile whole = dark; // what the bake with both files lights
+    light(scene, "both", 1);
+    light(scene, "scene only", 5);
+    light(dark, "both", 2);
+    light(whole, "both", 2);
+    light(whole, "scene only", 5);
+    scene.write(folder / "scene.glb");
+    dark.write(folder / "dark.glb");
+    whole.write(folder / "whole.glb");
+    const auto volume = [&](const char* file, std::vector<std::string> options) {
+        std::vector<std::string> arguments = {"bake",    at(file), "-o",       at("b.glb"), "--rays",    "32",
+                                              "--order", "3",      "--volume", "1",         "--bounces", "1"};
+        std::ranges::move(options, std::back_inserter(arguments));
+        EXPECT_EQ(prt(arguments).status, 0);
+        const GltfDocument document = load_gltf(folder / "b.glb");
+        return read_volume(document, extract_scene(document)).value();
+    };
+    const BakedVolume both = volume("scene.glb",
+                                    {"--texels", "16", "--texels", "unwrap", "--high-poly", at("dark.glb")}),
+                      alone = volume("whole.glb", {}), bright = volume("scene.glb", {});
+    EXPECT_EQ(both.grid, alone.grid);
+    EXPECT_EQ(both.baked.transfer.layout, alone.baked.transfer.layout);
+    EXPECT_EQ(both.baked.transfer.vectors, alone.baked.transfer.vectors);
+    EXPECT_NE(both.baked.transfer.vectors, bright.baked.transfer.vectors);
+}
+
+TEST_F(Volumes, WorkWithATargetErrorOfSurfaces) {
+    const auto bake_with = [&](std::vector<std::string> options) {
+        options.insert(options.begin(), {"bake", at(kScene), "-o", at("t.glb"), "--order", "2", "--bounces",
+                                         "1", "--volume", "2", "--volume", "rays=48"});
+        return prt(options);
+    };
+    ASSERT_EQ(bake_with({"--target-error", "0.5"}).status, 0);
+    const GltfDocument document = load_gltf(folder / "t.glb");
+    EXPECT_EQ(read_volume(document, extract_scene(document))->baked.record.rays, 48);
+    EXPECT_EQ(bake_with({"--target-error", "0.5", "--rays", "64"}).status, 2);
+}
 
 TEST_F(Volumes, WorkInAllCommands) {
     ASSERT_EQ(bake({"--volume", "1", "--bounces", "1", "--json", at("bake.json")}).status, 0);

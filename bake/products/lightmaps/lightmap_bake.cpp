@@ -4,6 +4,7 @@
 #include "prt/bake/lightmap_bake.h"
 
 #include "bake/pipeline/bounce_sources.h"
+#include "bake/pipeline/equal_rays.h"
 #include "bake/pipeline/record.h"
 #include "bake/pipeline/sampling_error.h"
 #include "bake/plan/available_memory.h"
@@ -68,14 +69,6 @@ void check_materials(const Scene& scene, const Media& media) {
     }
 }
 
-void check_texel_options(const BakeOptions& options) {
-    check_options(options);
-    if (options.tracer.method == BakeMethod::raster)
-        throw Error("--method raster does not support lightmaps; use --method trace");
-    if (options.target_error)
-        throw Error("--target-error does not support lightmaps; use --rays");
-}
-
 /// Checks the memory of dense values of the largest map and of three times the values of all receivers:
 /// separately, in parts, and in the file. Calculated, not measured.
 void check_room(const std::vector<Atlas>& atlases, std::size_t numbers, double limit) {
@@ -132,6 +125,9 @@ public:
         check_room(atlases_, plan.numbers(), options_.memory.limit);
         const std::unique_ptr<Tracer> tracer = make_tracer(traced, options_.tracer);
         statistics().notices = plan.notices;
+        const Casters casters{traced, finer_.reach};
+        const TexelPositions positions(scene_, finer_.scene ? &casters : nullptr);
+        choose_rays(*tracer, positions);
         const double share = plan.bounces != 0 || !plan.lamps.empty() ? 0.2 : 0;
         BounceSources sources = bounce_sources(plan, *tracer, progress.range(0, share));
         bounces_done_ = sources.bounces;
@@ -139,8 +135,6 @@ public:
         statistics().sources = plan.bounces != 0 ? plan.receivers().size() : 0;
         statistics().seconds.sources = watch.seconds();
         TexelTransport transport(plan, std::move(sources), rows_at_once());
-        const Casters casters{traced, finer_.reach};
-        const TexelPositions positions(scene_, finer_.scene ? &casters : nullptr);
         trace(plan, *tracer, positions, transport, progress.range(share, 1));
         finish(plan, *tracer, positions, watch);
         progress.update(1);
@@ -151,8 +145,25 @@ private:
     LightmapStatistics& statistics() { return result_.statistics; }
     const Scene& traced_scene() const { return finer_.scene ? *finer_.scene : scene_; }
 
+    /// The noise of depth maps is alike in neighbouring texels, so that the filter does not recognise it.
+    bool denoises(const Tracer& tracer) const {
+        return options_.repairs.denoise && tracer.method() == BakeMethod::trace;
+    }
+
+    /// Sets the number of rays of a texel; with a target error, by the noise at some texels.
+    void choose_rays(Tracer& tracer, const TexelPositions& positions) {
+        if (!options_.target_error)
+            return;
+        const EqualRays equal = equal_rays(*options_.target_error, [&](int rays) {
+            rays_ = rays;
+            return estimated_error(tracer, positions);
+        });
+        if (!equal.reached)
+            statistics().notices.push_back(missed_target());
+    }
+
     std::size_t rows_at_once() const {
-        const double rays = std::max(1.0, static_cast<double>(options_.rays) / kSamplesOfTexel);
+        const double rays = std::max(1.0, static_cast<double>(rays_) / kSamplesOfTexel);
         return static_cast<std::size_t>(
             std::clamp(kBytesOfRows / (rays * GatherOperator::kMaxBytesPerRay), 256.0, 65536.0));
     }
@@ -172,13 +183,13 @@ private:
                 .tracer = tracer,
                 .scene = plan.scene,
                 .positions = positions,
-                .options = {.order = options_.order, .rays = options_.rays, .seed = options_.seed + a},
+                .options = {.order = options_.order, .rays = rays_, .seed = options_.seed + a},
                 .inside = options_.repairs.inside,
                 .transport = &transport,
-                .notes_noise = options_.repairs.denoise};
+                .notes_noise = denoises(tracer)};
             TexelLight light = trace_texels(task, atlases_[a], samples.samples, term);
             statistics().rays += light.rays;
-            if (options_.repairs.denoise)
+            if (task.notes_noise)
                 filter(a, positions, samples.samples, light);
             for (std::size_t i = 0; i < light.lamps.size(); ++i)
                 light.lamps[i] += light.bounced_lamps[i];
@@ -246,7 +257,7 @@ private:
     }
 
     /// Estimates the sampling error of direct light at single positions, with the rays of a texel.
-    void estimate_error(Tracer& tracer, const TexelPositions& positions) {
+    double estimated_error(Tracer& tracer, const TexelPositions& positions) {
         constexpr std::size_t kPositions = 2048;
         Receivers receivers;
         for (std::size_t a = 0; a < atlases_.size(); ++a) {
@@ -255,13 +266,17 @@ private:
             for (std::size_t s = 0; s < samples.size(); s += step)
                 positions.append(samples[s], 1, receivers);
         }
-        const TraceOptions options{.order = options_.order, .rays = options_.rays, .seed = options_.seed};
+        // The samples of a texel have parts of one sequence of rays, but separate directions of depth maps.
+        const double parts = tracer.method() == BakeMethod::raster ? kSamplesOfTexel : 1;
+        const TraceOptions options{.order = options_.order,
+                                   .rays = std::max(1, static_cast<int>(rays_ / parts)),
+                                   .seed = options_.seed};
         Transfer traced = zero_transfer(options.order, 1, receivers.size());
         const std::vector<std::uint32_t> indices = receivers_on_surfaces(receivers);
         trace_receivers(tracer, receivers, indices, options, traced);
         const SamplingError error = sampling_error(tracer, receivers, options, traced, {});
-        statistics().sampling_error = error.error;
         statistics().rays += error.rays + indices.size() * static_cast<std::size_t>(options.rays);
+        return error.error / std::sqrt(parts);
     }
 
     void finish(const BakePlan& plan, Tracer& tracer, const TexelPositions& positions,
@@ -278,11 +293,9 @@ private:
         if (std::optional<std::string> notice = positions.check_casters())
             s.notices.push_back(std::move(*notice));
         s.mean_visibility = mean_visibility(light_.direct, map.areas);
-        s.denoised = options_.repairs.denoise;
-        if (noise_.texels > 0)
-            s.sampling_error = std::sqrt(noise_.squares / noise_.texels);
-        else
-            estimate_error(tracer, positions);
+        s.denoised = denoises(tracer);
+        s.sampling_error = noise_.texels > 0 ? std::sqrt(noise_.squares / noise_.texels)
+                                             : estimated_error(tracer, positions);
         BakedTransfer& baked = map.baked;
         baked.transfer = plan.bounces != 0 ? joined(light_.direct, narrowed(std::move(light_.rest)))
                                            : std::move(light_.direct);
@@ -290,7 +303,7 @@ private:
             baked.transfer = with_lamps(baked.transfer, light_.lamps, plan.lamps);
         baked.record = {.bounces = bounces_done_,
                         .endless = plan.bounces == kEndlessBounces,
-                        .rays = options_.rays,
+                        .rays = rays_,
                         .seed = options_.seed,
                         .method = tracer.method(),
                         .backend = tracer.backend(),
@@ -331,6 +344,7 @@ private:
         double squares = 0, texels = 0; ///< relative, weighted by texels
     } noise_;                           ///< noise of filtered maps
     int bounces_done_ = 0;
+    int rays_ = options_.rays; ///< rays of a texel
     LightmapBake result_;
 };
 
@@ -338,7 +352,7 @@ private:
 
 LightmapBake bake_lightmap(const Scene& scene, const std::vector<Atlas>& atlases, const BakeOptions& options,
                            const FinerModel& finer, const Progress& progress) {
-    check_texel_options(options);
+    check_options(options);
     check_finer(finer);
     return LightmapBaker(scene, atlases, options, finer).run(progress);
 }

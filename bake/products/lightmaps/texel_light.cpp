@@ -199,7 +199,7 @@ private:
             return is_sealed;
         std::vector<std::uint32_t> dark, unknown;
         for (const std::uint32_t g : layer.indices)
-            if (traced.vector(g)[0] <= 0)
+            if (static_cast<double>(traced.vector(g)[0]) <= max_dark(task_.tracer))
                 dark.push_back(g);
         std::ranges::copy_if(dark, std::back_inserter(unknown),
                              [&](std::uint32_t g) { return verdicts[g] == Verdict::unknown; });

@@ -35,13 +35,12 @@ namespace {
 
 void check_volume_options(const VolumeOptions& volume, const BakeOptions& options) {
     check_options(options);
-    if (options.tracer.method == BakeMethod::raster)
-        throw Error("--method raster does not support volumes; use --method trace");
-    if (options.target_error)
-        throw Error("--target-error does not support volumes; use --rays");
     if (volume.order < 2 || volume.order > kMaxIncidentOrder)
         throw Error(fmt::format("the order of the incident light of a volume must be in 2..{}, not {}",
                                 kMaxIncidentOrder, volume.order));
+    if (volume.rays < 0 || volume.rays > kMaxRays)
+        throw Error(
+            fmt::format("the number of rays per probe must be in 0..{}, not {}", kMaxRays, volume.rays));
     if (volume.probes == 0 && !(volume.spacing > 0 && volume.spacing <= kFarthestVertex))
         throw Error(fmt::format("the probe spacing of a volume cannot be {:g} m", volume.spacing));
     if (!(volume.error >= 0 && volume.error < 1))
@@ -61,9 +60,12 @@ constexpr std::size_t kPointsAtOnce = 2048;
 /// Share of a probe's rays that goes to points of the fit. Half of the rays had larger errors by noise.
 constexpr double kFitShare = 0.25;
 
-VolumeOptions with_points(VolumeOptions volume, const BakeOptions& options) {
+/// Replaces the values that depend on the bake.
+VolumeOptions completed(VolumeOptions volume, const BakeOptions& options) {
+    if (volume.rays == 0)
+        volume.rays = options.rays;
     if (!volume.fit_points)
-        volume.fit_points = options.rays >= kRaysWorthAFit ? 1 : 0;
+        volume.fit_points = volume.rays >= kRaysWorthAFit ? 1 : 0;
     return volume;
 }
 
@@ -71,12 +73,12 @@ bool is_fitted(const VolumeOptions& volume) {
     return *volume.fit_points > 0;
 }
 
-int rays_of_probe(const VolumeOptions& volume, const BakeOptions& options) {
-    return is_fitted(volume) ? static_cast<int>(std::ceil((1 - kFitShare) * options.rays)) : options.rays;
+int rays_of_probe(const VolumeOptions& volume) {
+    return is_fitted(volume) ? static_cast<int>(std::ceil((1 - kFitShare) * volume.rays)) : volume.rays;
 }
 
-int rays_of_point(const VolumeOptions& volume, const BakeOptions& options) {
-    return static_cast<int>(std::ceil(kFitShare * options.rays / *volume.fit_points));
+int rays_of_point(const VolumeOptions& volume) {
+    return static_cast<int>(std::ceil(kFitShare * volume.rays / *volume.fit_points));
 }
 
 /// Bytes per probe: its values, sums of its points, and a copy in parts. Calculated, not measured.
@@ -156,7 +158,7 @@ Transfer split_into_terms(const IncidentLayout& layout, const BakePlan& plan,
 class VolumeBaker {
 public:
     VolumeBaker(const Scene& scene, const VolumeOptions& volume, const BakeOptions& options)
-        : scene_(scene), volume_(with_points(volume, options)), options_(options),
+        : scene_(scene), volume_(completed(volume, options)), options_(options),
           media_(choose_media(scene, options)), traced_(trace_scene(scene, media_, options)),
           plan_(plan_bake(traced_, media_, options)), tracer_(make_tracer(traced_, options.tracer)) {}
 
@@ -188,7 +190,7 @@ public:
         std::vector<float> values(positions.size() * stride);
         PlacedLight light;
         light.backs.resize(positions.size());
-        const ProbeTracer::Task task{.positions = positions, .rays = options_.rays, .seed = options_.seed};
+        const ProbeTracer::Task task{.positions = positions, .rays = volume_.rays, .seed = options_.seed};
         tracer.trace(task, progress.range(0.4, 1), [&](std::size_t p, const ProbeView& seen) {
             std::ranges::copy(seen.vectors, &values[p * stride]);
             light.backs[p] = seen.backs;
@@ -205,14 +207,13 @@ private:
         statistics().rays = sources.rays;
         statistics().seconds.sources = watch_.seconds();
         bounces_ = sources.bounces;
-        return {plan_, *tracer_, std::move(sources), volume_.order};
+        return {plan_, tracer_->rays(), std::move(sources), volume_.order};
     }
 
     /// Places the final bricks and measures their probes.
     ProbeStates measured(ProbeTracer& tracer, double room, const Progress& progress) {
         VolumeGrid& grid = result_.volume.grid;
-        const ProbeTask task{traced_, tracer, rays_of_probe(volume_, options_), options_.seed,
-                             options_.threads};
+        const ProbeTask task{traced_, tracer, rays_of_probe(volume_), options_.seed, options_.threads};
         if (volume_.error > 0)
             grid = with_finer_levels(std::move(grid));
         ProbeStates states = measure_probes(task, grid, probes_of(grid), {}, progress.range(0, 0.4));
@@ -278,7 +279,7 @@ private:
         for (std::size_t half = 0; half < 2; ++half) {
             points.vectors[half].resize(positions.size() * points.stride);
             const ProbeTracer::Task task{.positions = positions,
-                                         .rays = (rays_of_probe(volume_, options_) + 1) / 2,
+                                         .rays = (rays_of_probe(volume_) + 1) / 2,
                                          .seed = seed ^ (half << 40)};
             tracer.trace(task, {}, [&](std::size_t p, const ProbeView& seen) {
                 std::ranges::copy(seen.vectors, &points.vectors[half][p * points.stride]);
@@ -330,7 +331,7 @@ private:
         std::vector<float> values(positions.size() * stride);
         std::vector<char> kept(positions.size());
         tracer.trace({.positions = positions,
-                      .rays = rays_of_point(volume_, options_),
+                      .rays = rays_of_point(volume_),
                       .seed = options_.seed + kSecondScramble + first},
                      {}, [&](std::size_t p, const ProbeView& seen) {
                          std::ranges::copy(seen.vectors, &values[p * stride]);
@@ -354,17 +355,17 @@ private:
         s.rounding_error = float16_rounding_error(baked.transfer, areas);
         baked.record = {.bounces = bounces_,
                         .endless = plan_.bounces == kEndlessBounces,
-                        .rays = options_.rays,
+                        .rays = volume_.rays,
                         .seed = options_.seed,
-                        .method = tracer_->method(),
-                        .backend = tracer_->backend(),
+                        .method = tracer_->rays().method(),
+                        .backend = tracer_->rays().backend(),
                         .receivers = receivers_id(scene_)};
         if (options_.memory.storage == TransferStorage::float16)
             check_float16(s.rounding_error);
         baked.storage = options_.memory.storage.value_or(s.rounding_error < 1e-3 ? TransferStorage::float16
                                                                                  : TransferStorage::float32);
         s.rays += tracer.rays();
-        s.device = tracer_->device();
+        s.device = tracer_->rays().device();
         s.notices.insert(s.notices.begin(), plan_.notices.begin(), plan_.notices.end());
         s.seconds.all = watch_.seconds();
     }

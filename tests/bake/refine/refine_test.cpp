@@ -130,15 +130,22 @@ TEST(Refine, AcceptsDarkAndDegenerateScenes) {
 
 TEST(Refine, RejectsUnsupportedScenes) {
     const Scene scene = SceneBuilder().floor({0, 0, 0}, 1).build();
-    BakeOptions raster = options_of_order(2), target = raster, vertex = raster;
-    raster.tracer.method = BakeMethod::raster;
-    EXPECT_THROW(refine(scene, raster, {}), Error);
-    target.target_error = 0.1;
-    EXPECT_THROW(refine(scene, target, {}), Error);
+    BakeOptions vertex = options_of_order(2);
     vertex.fit = FitMode::vertex;
     EXPECT_THROW(refine(scene, vertex, {}), Error);
     for (const double error : {0.0, -1.0, std::nan("")})
         EXPECT_THROW(refine(scene, options_of_order(2), {.target = error}), Error);
+}
+
+TEST(Refine, MeasuresWithTheGivenNumberOfRaysForATargetError) {
+    BakeOptions options = options_of_order(2);
+    const RefineOptions how{.target = 0.1, .max_vertices = 300};
+    const RefineStatistics given = refine(floor_to_refine(), options, how).statistics;
+    options.target_error = 0.5;
+    const RefineStatistics target = refine(floor_to_refine(), options, how).statistics;
+    EXPECT_GT(target.rounds, 0);
+    EXPECT_EQ(target.rays, given.rays);
+    EXPECT_EQ(target.after.vertices, given.after.vertices);
 }
 
 TEST(Refine, StopsWhenAsked) {

@@ -4,6 +4,7 @@
 #include "bake/scene/receivers.h"
 #include "prt/bake/lightmap_bake.h"
 #include "prt/core/error.h"
+#include "prt/core/error_measures.h"
 #include "prt/core/sh.h"
 #include "support/scene_builder.h"
 
@@ -358,6 +359,26 @@ TEST(LightmapBake, FiltersNoLightFromOneSurfaceToAnother) {
     }
 }
 
+TEST(LightmapBake, ReachesATargetError) {
+    const Scene floor = floor_map(SceneBuilder().floor({0, 0, 0}, 1).build()),
+                ball = test::join({floor, SceneBuilder().sphere({0.2f, 0.5f, 0}, 0.3f, 16).build()});
+    const auto map = [&](const BakeOptions& options) {
+        return bake_lightmap(floor, {whole(floor, 12)}, options, {&ball, 0.01});
+    };
+    BakeOptions options = options_of(3, 1 << 15, 0);
+    options.repairs.denoise = false;
+    const Transfer reference = map(options).lightmap.baked.transfer;
+    for (const double target : {0.03, 0.005}) {
+        options.target_error = target;
+        const LightmapBake result = map(options);
+        EXPECT_LE(result.statistics.sampling_error, target);
+        EXPECT_LT(result.lightmap.baked.record.rays, 1 << 15);
+        const double error = relative_l2(reference, result.lightmap.baked.transfer, result.lightmap.areas);
+        EXPECT_LT(error, 1.25 * target);
+        EXPECT_GT(error, 0.2 * target); // no rays thrown away
+    }
+}
+
 TEST(LightmapBake, ReportsMisplacedHighPolyModels) {
     const Scene scene = floor_map(SceneBuilder().floor({0, 0, 0}, 1).build());
     const auto bake_with = [&](const Scene& finer) {
@@ -387,9 +408,6 @@ TEST(LightmapBake, RejectsFeaturesKnownOnlyAtVertices) {
     BakeOptions medium = options_of(2, 16, 1);
     medium.subsurface.media = {{"", measured_media().front().medium}};
     refused(floor, medium, "has subsurface scattering");
-    BakeOptions adaptive = options_of(2, 16, 0);
-    adaptive.target_error = 0.1;
-    refused(floor, adaptive, "use --rays");
     BakeOptions little = options_of(10, 16, 0);
     little.memory.limit = 2000;
     refused(floor, little, "memory");

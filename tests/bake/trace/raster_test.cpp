@@ -28,7 +28,8 @@ public:
 
     Transfer by_rays(const TraceOptions& options) { return traced(cpu_, receivers_, options); }
     Transfer by_maps(int resolution, const TraceOptions& options) {
-        GlRasterizer rasterizer(GlContext::create(GlDevice::any), trace_, resolution);
+        GlRasterizer rasterizer(GlContext::create(GlDevice::any), trace_, resolution,
+                                [this] { return std::make_unique<EmbreeTracer>(trace_); });
         return traced(rasterizer, receivers_, options);
     }
     double distance(const Transfer& a, const Transfer& b) const {
@@ -172,9 +173,9 @@ TEST(GpuRaster, RejectsOptionsBeyondDepthMaps) {
     BakeOptions options;
     options.tracer.method = BakeMethod::raster;
     options.tracer.backend = Backend::gpu;
-    options.bounces = 1;
+    options.tracer.falloff.farthest = 1;
     EXPECT_THROW(bake(balls_over_floor(), options), Error);
-    options.bounces = 0;
+    options.tracer.falloff = {};
     options.tracer.backend = Backend::cpu;
     EXPECT_THROW(bake(balls_over_floor(), options), Error);
 }

@@ -3,6 +3,7 @@
 #include "bake/reference/incident_reference.h"
 #include "prt/bake/volume_bake.h"
 #include "prt/core/error.h"
+#include "prt/core/error_measures.h"
 #include "prt/core/sh.h"
 #include "prt/core/transfer.h"
 #include "support/scene_builder.h"
@@ -93,6 +94,32 @@ TEST(VolumeBake, OverABlackFloorIsHalfOfTheIdentity) {
     for (std::size_t r = 0; r < 27; ++r)
         for (std::size_t i = 0; i < 16; ++i)
             EXPECT_NEAR(light.transfer.vector(r)[i], half_product(r % 9, i), 4e-3) << r << " " << i;
+}
+
+/// Probes have the same rays in all bakes: they differ only by the noise of the light that surfaces reflect.
+TEST(VolumeBake, ReceivesLightOfSurfacesWithATargetError) {
+    SceneBuilder box;
+    add_box(box, {-1, -1, -1}, {1, 1, 1}, 4, 3); // open above
+    const Scene scene = test::painted(box.build(), glm::vec3(0.8f));
+    VolumeOptions volume = probes(0.8, {{-0.9f, -0.9f, -0.9f}, {0.9f, 0.9f, 0.9f}});
+    volume.rays = 6 * 64;
+    const auto baked = [&](int count, std::optional<double> target) {
+        BakeOptions options = rays(count, 2);
+        options.repairs.denoise = false;
+        options.target_error = target;
+        return bake_volume(scene, volume, options);
+    };
+    const VolumeBake reference = baked(1 << 13, {}), noisy = baked(16, {});
+    const std::vector<float> same(reference.volume.baked.transfer.receivers(), 1.0f);
+    const auto error = [&](const VolumeBake& bake) {
+        return relative_l2(reference.volume.baked.transfer, bake.volume.baked.transfer, same);
+    };
+    constexpr double kTarget = 0.01;
+    const VolumeBake loose = baked(16, 1.0), fine = baked(16, kTarget);
+    EXPECT_LT(error(fine), 0.5 * error(noisy));
+    EXPECT_LT(error(fine), kTarget); // probes see means over surfaces
+    EXPECT_GT(error(loose), error(fine));
+    EXPECT_EQ(fine.volume.baked.record.rays, volume.rays);
 }
 
 TEST(VolumeBake, IsOneInAWhiteFurnace) {

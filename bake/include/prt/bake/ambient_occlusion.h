@@ -27,8 +27,7 @@ struct OcclusionOptions {
     /// `occlusion_maps` always uses `rays`, but throws `Error` for an invalid value.
     std::optional<double> target_error;
     /// Points where `ambient_occlusion` measures visibility: vertices, or points between vertices.
-    /// FitMode::surface does not support BakeMethod::raster or a target error. `occlusion_maps` always
-    /// measures in texels.
+    /// `occlusion_maps` always measures in texels.
     FitMode fit = FitMode::automatic;
     TracerChoice tracer; ///< hardware and method that trace the rays, and the distance fall-off of occlusion
     /// Treatment of bad textures, of receivers inside geometry, and of noise. `occlusion_maps` does not
@@ -74,7 +73,7 @@ struct OccluderOptions {
     /// less than this fraction of the light of a receiver that faces it (OcclusionVolume::reach). The
     /// distance is an estimate, and at least half the diagonal of the box.
     double least = 0.01;
-    /// Hardware that traces the rays. BakeMethod::raster is not supported, and a fall-off has no effect.
+    /// Hardware that traces the rays. BakeMethod::raster and a fall-off have no effect.
     TracerChoice tracer = {};
     Repairs repairs = {};   ///< treatment of bad textures; other members have no effect
     int threads = 0;        ///< number of threads; 0: all
@@ -97,8 +96,8 @@ struct OccluderBake {
 /// Bakes the occlusion volume of the object that consists of all triangles of `part`. `frame` maps the
 /// object's frame to the frame of the positions of `part`; it rotates, translates and scales uniformly.
 /// Throws the errors of `bake`, and `Error` if `frame` is singular or not finite, if the object has a size of
-/// 0, if all points around the object are inside geometry, for a margin or minimum effect that is not greater
-/// than 0, and for BakeMethod::raster.
+/// 0, if all points around the object are inside geometry, and for a margin or minimum effect that is not
+/// greater than 0.
 OccluderBake bake_occluder(const Scene& part, const glm::dmat4& frame, const OccluderOptions& options = {},
                            const Progress& progress = {});
 
@@ -114,7 +113,7 @@ struct FloorOcclusion {
 /// Compares the joint occlusion of all `volumes` with rays against all triangles of `scene`, at 2048 random
 /// receivers. `frames` [volumes]: maps the frame of each volume to the frame of the positions of `scene`.
 /// OccluderOptions::margin and OccluderOptions::least are ignored. Receivers inside geometry do not count.
-/// Throws the errors of `bake`, and `Error` for BakeMethod::raster.
+/// Throws the errors of `bake`.
 FloorOcclusion floor_occlusion(const Scene& scene, std::span<const OcclusionVolume> volumes,
                                std::span<const glm::dmat4> frames, const OccluderOptions& options = {},
                                const Progress& progress = {});

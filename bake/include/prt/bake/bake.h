@@ -128,7 +128,7 @@ struct BakeStatistics {
     double mean_visibility = 0;
     /// Estimated relative L2 error of the transfer by noise of rays. It applies to all light of the sky after
     /// the noise filter if BakeNoise::filtered, otherwise to direct light of the sky. 0 for
-    /// BakeMethod::raster, whose error is not estimated.
+    /// BakeMethod::raster without a target error, whose error is not estimated.
     double sampling_error = 0;
     double rounding_error = 0; ///< relative L2 error that storing the transfer as float16 causes; computed
                                ///< even if the result is stored as float32

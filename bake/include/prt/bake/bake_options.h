@@ -151,11 +151,10 @@ enum class Inside {
 /// Points of a surface where a bake measures light.
 enum class FitMode {
     automatic, ///< `surface` if test points between the vertices show that it has a lower error, otherwise
-               ///< `vertex`; always `vertex` for BakeMethod::raster or with a target error
+               ///< `vertex`; always `vertex` for BakeMethod::raster and with a target error
     vertex,    ///< measure light at the vertices
     surface,   ///< measure light at samples between the vertices; vertex values are then a least-squares fit
-               ///< of their interpolation to the samples (Kavan, Bargteil and Sloan 2011); not supported for
-               ///< BakeMethod::raster or with a target error
+               ///< of their interpolation to the samples (Kavan, Bargteil and Sloan 2011)
 };
 
 /// Value for a number of bounces: bounce light until the remaining light is negligible.
@@ -236,12 +235,13 @@ struct BakeOptions {
     /// Number of rays per receiver, 1..kMaxRays; for BakeMethod::raster the number of directions.
     int rays = 1024;
     /// Target relative L2 error of the sky's direct light at the receivers, finite and greater than 0. The
-    /// bake then chooses the number of rays of each receiver instead of `rays`, at most kMaxRays. No value:
-    /// each receiver gets `rays` rays. BakeMethod::raster and FitMode::surface do not support a target error.
+    /// bake then chooses the number of rays instead of `rays`, at most kMaxRays: of each vertex separately,
+    /// but of all together for BakeMethod::raster, FitMode::surface and texels. No value: each receiver gets
+    /// `rays` rays.
     std::optional<double> target_error;
     FitMode fit = FitMode::vertex; ///< points where light is measured
-    /// Number of bounces, 0..kMaxBounces, or kEndlessBounces; 0: light without bounces. Must be 0 for
-    /// BakeMethod::raster and with a distance fall-off.
+    /// Number of bounces, 0..kMaxBounces, or kEndlessBounces; 0: light without bounces. Must be 0 with a
+    /// distance fall-off. With BakeMethod::raster, rays follow the bounces.
     int bounces = 0;
     TracerChoice tracer; ///< hardware and method that trace the rays, and the distance fall-off of occlusion
     SubsurfaceOptions subsurface; ///< media inside materials

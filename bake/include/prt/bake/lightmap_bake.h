@@ -65,8 +65,8 @@ struct LightmapBake {
 /// bounces between vertices, and from vertices to texels. options.fit applies to these vertices, and edges
 /// longer than eight texels are split for them. If `finer` has a scene, that scene blocks and reflects light
 /// instead of `scene`, and texels are measured on its surface as in `occlusion_maps`. Throws the errors of
-/// `bake` and `check_finer`, and `Error` for surfaces that transmit light or contain a medium, for depth maps
-/// (BakeMethod::raster), for a target error, and if `finer` has no surface near the scene.
+/// `bake` and `check_finer`, and `Error` for surfaces that transmit light or contain a medium, and if
+/// `finer` has no surface near the scene.
 LightmapBake bake_lightmap(const Scene& scene, const std::vector<Atlas>& atlases, const BakeOptions& options,
                            const FinerModel& finer = {}, const Progress& progress = {});
 

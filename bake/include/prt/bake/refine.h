@@ -57,8 +57,9 @@ struct RefineResult {
 /// are those of the bake that follows; the number of rays and the bounces in them have no effect. On the CPU
 /// the result is deterministic and does not depend on the number of threads. Needs about 2.4 kB of memory per
 /// vertex of the refined scene at order 6. Throws `Error` if the order, the media or `how.target` are
-/// invalid, and if `options` have BakeMethod::raster, FitMode::vertex or a `target_error`. Also throws the
-/// errors of `load_textures`, `make_tracer` and Tracer::trace, and `Cancelled` after a stop request.
+/// invalid, and if `options` have FitMode::vertex. Light is measured by rays, also for BakeMethod::raster,
+/// with BakeOptions::rays, also with a target error. Also throws the errors of `load_textures`, `make_tracer`
+/// and Tracer::trace, and `Cancelled` after a stop request.
 RefineResult refine(const Scene& scene, const BakeOptions& options, const RefineOptions& how,
                     const Progress& progress = {});
 

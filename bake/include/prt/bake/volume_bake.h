@@ -12,7 +12,7 @@
 
 namespace prt {
 
-/// Value of BakeOptions::rays from which on VolumeOptions::fit_points has the default 1. With fewer rays, the
+/// Number of rays per probe from which on VolumeOptions::fit_points has the default 1. With fewer rays, the
 /// light at these points is mostly noise, and a fit increases the error (docs/benchmarks.md, "Volumes").
 constexpr int kRaysWorthAFit = 2048;
 
@@ -35,10 +35,11 @@ struct VolumeOptions {
     /// cells depend only on the distance to surfaces.
     double error = 0;
     int order = 3; ///< order of incident light, 2..kMaxIncidentOrder
+    int rays = 0;  ///< approximate number of rays per probe, at most kMaxRays; 0: BakeOptions::rays
     /// Mean number of random points per cell, 0..100; points inside geometry or outside `bounds` are omitted.
     /// Light is measured at these points, and probes are fitted so that interpolation matches it. A quarter
     /// of the rays is then traced from these points. 0: no fit, probes store the light at their positions. No
-    /// value: 1 if BakeOptions::rays is at least `kRaysWorthAFit`, otherwise 0.
+    /// value: 1 if the number of rays per probe is at least `kRaysWorthAFit`, otherwise 0.
     std::optional<double> fit_points = {};
 };
 
@@ -83,11 +84,11 @@ struct VolumeBake {
 };
 
 /// Bakes a volume: chooses probe positions in the box of `volume`, and computes the transfer of incident
-/// light at each probe, with about `options.rays` rays per probe. Light bounces between the vertices of the
-/// scene. The order of the lighting is `options.order`. Throws the errors of `bake`, and `Error` for invalid
-/// volume options, BakeMethod::raster, a target error of `options`, a spacing that is too small for the box,
-/// a volume that does not fit into memory, a scene without triangles if VolumeOptions::bounds has no value,
-/// and if all probes are inside geometry.
+/// light at each probe. Probes are measured by rays; BakeOptions::target_error and BakeMethod::raster apply
+/// to the vertices of the scene, between which light bounces. The order of the lighting is `options.order`.
+/// Throws the errors of `bake`, and `Error` for invalid volume options, a spacing that is too small for the
+/// box, a volume that does not fit into memory, a scene without triangles if VolumeOptions::bounds has no
+/// value, and if all probes are inside geometry.
 VolumeBake bake_volume(const Scene& scene, const VolumeOptions& volume, const BakeOptions& options,
                        const Progress& progress = {});
 
@@ -104,7 +105,7 @@ struct PlacedLight {
 /// `bake_volume` at probes without a fit; positions are not moved off surfaces. `positions`: metres, relative
 /// to Scene::origin. `order`: order of incident light, 2..kMaxIncidentOrder; the order of the lighting is
 /// `options.order`. Throws the errors of `bake`, but does not check the memory limit. Also throws `Error` for
-/// another `order`, BakeMethod::raster and a target error of `options`.
+/// another `order`.
 PlacedLight bake_positions(const Scene& scene, std::span<const glm::vec3> positions, int order,
                            const BakeOptions& options, const Progress& progress = {});
 
