@@ -53,8 +53,7 @@ constexpr Choice<BakeMethod> kBakeMethods[] = {
     {"raster", BakeMethod::raster,
      "depth maps from --rays N directions, by OpenGL 4.5; only direct light at vertices\n"
      "  not with --bounces above 0, --texels, --volume, --refine, --target-error, --fit surface\n"
-     "  not with --instances shared; --instances auto acts as own\n"
-     "  light of lamps is traced by rays on the CPU\n"
+     "  light of lamps, and the light that --instances shares, is traced by rays on the CPU\n"
      "  --device auto: a hardware GPU, else error; gpu: also a software driver; others: error"}};
 constexpr Choice<std::optional<TransferStorage>> kStorages[] = {
     {"auto", std::nullopt,
@@ -161,7 +160,7 @@ void add_subsurface(CLI::App* command, SubsurfaceOptions& subsurface) {
                 "\n"
                 "repeat the option for several materials, each once; type an entry for all materials\n"
                 "  first: it replaces the entries before it\n"
-                "an unknown material is an error; not with --texels and --instances shared\n"
+                "an unknown material is an error; not with --texels\n"
                 "default: materials scatter that have KHR_materials_diffuse_transmission, and\n"
                 "  KHR_materials_volume with thickness and attenuation distance\n"
                 "  an entry of --subsurface replaces their medium")
@@ -234,7 +233,7 @@ void add_method(CLI::App* command, BakeOptions& options) {
             "not with --texels\n"
             "with --refine: auto acts as surface; vertex is an error\n"
             "with --target-error, --method raster and shared instances: auto acts as vertex\n"
-            "  surface is an error there; with --instances auto, it bakes each instance as own");
+            "  surface is an error with --target-error and --method raster");
     Suboptions("--method", names_of(kBakeMethods), "method that finds which directions are blocked",
                [&options](const std::string& name) {
                    options.tracer.method = chosen("--method", kBakeMethods, name);
@@ -530,8 +529,8 @@ void add_bake(CLI::App& app, Session& session) {
             "trace rays until direct light has at most this relative L2 noise\n"
             "X: above 0; 0.01: 1 %; over the whole surface, before --denoise; sky only, not lamps\n"
             "the number of rays differs between vertices, at most 2^24 each; default: that of --rays\n"
-            "not with --rays, --texels, --volume, --refine, --fit surface, --method raster,\n"
-            "  --instances shared")
+            "with shared instances: of each mesh alone, and of all surfaces that are drawn once\n"
+            "not with --rays, --texels, --volume, --refine, --fit surface, --method raster")
         ->check(above_zero())
         ->excludes(rays);
     add_transport(command, a.options);

@@ -68,21 +68,16 @@ SharedMeshes meshes_to_share(const InstanceArguments& arguments, const GltfDocum
     const bool must = arguments.mode == InstanceMode::shared;
     if (asked.other) {
         if (must)
-            throw Error(
-                "--instances shared is for vertices as they are: leave out texels, volumes and --refine");
+            throw Error("--instances shared is for vertices as they are: leave out texels, volumes and --refine");
         return {};
     }
     SharedMeshes meshes = shared_meshes(document, scene);
+    const std::size_t other_scales = keep_one_scale(meshes, scene, asked.options);
     const bool other_light =
-        asked.options.target_error || asked.options.fit == FitMode::surface ||
-        asked.options.tracer.method == BakeMethod::raster || !asked.options.subsurface.media.empty() ||
         (asked.options.lamps.mode != LampMode::none &&
-         (!scene.lights.empty() || std::ranges::any_of(scene.materials,
-                                                       [](const Material& material) {
-                                                           return material.emission.radiance != glm::vec3(0);
-                                                       }))) ||
-        std::ranges::any_of(scene.materials,
-                            [](const Material& material) { return medium_of(material).has_value(); });
+         (!scene.lights.empty() || std::ranges::any_of(scene.materials, [](const Material& material) {
+             return material.emission.radiance != glm::vec3(0);
+         })));
     if (!must && (other_light || !pays(arguments, meshes, scene)))
         return {};
     if (must && meshes.meshes.empty())
@@ -93,6 +88,11 @@ SharedMeshes meshes_to_share(const InstanceArguments& arguments, const GltfDocum
              {fmt::format("{} are mirrored, {} singular, sheared or scaled unevenly, and {} bent by skins "
                           "or morph targets: these are baked alone",
                           meshes.mirrored, meshes.uneven, meshes.bent)});
+    if (other_scales > 0)
+        send(arguments.notify, "instances",
+             {fmt::format("{} contain a medium, whose lengths do not scale, and have another scale than most "
+                          "instances of their mesh: these are baked alone",
+                          other_scales)});
     return meshes;
 }
 
