@@ -408,12 +408,14 @@ void run_texels(const BakeArguments& a, GltfDocument& document, Scene& scene, co
     publish(report, a.json, session);
 }
 
-void run_instances(const BakeArguments& a, const SharedMeshes& meshes, GltfDocument& document, Scene& scene,
+void run_instances(const BakeArguments& a, SharedMeshes meshes, GltfDocument& document, Scene& scene,
                    Session& session) {
     leave_out_shadows(scene, a.no_shadow);
+    about(a.scene, [&] { separate_sides_of_meshes(sides_of(a), meshes, document, scene); });
     InstancedBake baked = about(a.scene, [&] {
         ProgressBar bar = session.progress_bar("baking");
-        return bake_shared(a.instances, {document, scene, a.no_shadow}, meshes, a.options, bar.progress());
+        return bake_shared(a.instances, {document, scene, a.no_shadow}, std::move(meshes), a.options,
+                           bar.progress());
     });
     if (!baked.document) {
         print_notices("instances",
@@ -422,7 +424,6 @@ void run_instances(const BakeArguments& a, const SharedMeshes& meshes, GltfDocum
         run_vertices(a, document, scene, session);
         return;
     }
-    about(a.scene, [&] { note_shared_sides(sides_of(a), scene); });
     const std::vector<std::byte> file = with_volume(a, *baked.document, scene, std::nullopt);
     Report report = instance_report({.output = a.output.string(),
                                      .scene = scene,
@@ -540,8 +541,10 @@ void add_bake(CLI::App& app, Session& session) {
     add_no_shadow(command, a.no_shadow, "\nno effect on the model of --high-poly");
     add_method(command, a.options);
     add_refinement(command, a);
-    add_back_sides(command, a.back_sides,
-                   "\nalways shared if --instances shares transfer, and for --texels without unwrap");
+    add_back_sides(
+        command, a.back_sides,
+        "\nalways shared for --texels without unwrap\n"
+        "instances that share transfer have the same vertices: light at one of them is sufficient");
     add_texels(command, a.texels,
                "bake lightmaps instead of vertices: N x N texels, or N per metre\n"
                "not with --fit, --refine, --target-error, --method raster and --instances shared\n"
