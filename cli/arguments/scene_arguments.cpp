@@ -27,7 +27,7 @@ constexpr Choice<InstanceMode> kInstanceModes[] = {
      "bake a mesh once; 52 bytes per instance describe the effect of its surroundings\n"
      "  instances that are mirrored, sheared, skinned or morphed, or have unequal scale: as own\n"
      "  an error if no mesh has at least two instances that can share\n"
-     "  not with --texels, --volume and --refine\n"
+     "  not with --texels and --refine\n"
      "  with subsurface scattering, instances of another scale than most of their mesh: as own\n"
      "  not with lamps (use --lamps none), levels (use --levels ignore)"},
     {"auto", InstanceMode::automatic,

@@ -46,8 +46,7 @@ void add_volume(CLI::App* command, VolumeArguments& arguments) {
             })
             .detail("METRES: distance between probes near surfaces, 1e-9 to 1e9; it is larger in open space\n"
                     "probes receive light from the scene, not from the model of --high-poly")
-            .detail("not with --target-error, --method raster or --instances shared; --instances auto acts "
-                    "as own")
+            .detail("not with --target-error and --method raster")
             .whole_number("probes", 125, 1 << 28,
                           "instead of METRES, as --volume probes=4000: at most N probes, 125 to 2^28",
                           [&volume, check_one](int count) {

@@ -424,12 +424,15 @@ void run_instances(const BakeArguments& a, SharedMeshes meshes, GltfDocument& do
         run_vertices(a, document, scene, session);
         return;
     }
-    const std::vector<std::byte> file = with_volume(a, *baked.document, scene, std::nullopt);
+    const std::optional<VolumeBake> volume = bake_probes(a, scene, session);
+    const std::vector<std::byte> file = with_volume(a, *baked.document, scene, volume);
     Report report = instance_report({.output = a.output.string(),
                                      .scene = scene,
                                      .baked = baked,
                                      .error = a.instances.error,
                                      .bytes = session.write(a.output, file)});
+    if (volume)
+        add_volume_bake(*volume, report);
     publish(report, a.json, session);
 }
 
@@ -486,9 +489,9 @@ void run(BakeArguments a, Session& session) {
     if (a.texels.given())
         room = about(a.scene, [&] { return make_room(a.texels, a.scene, document, scene); });
     const SharedMeshes meshes = about(a.scene, [&] {
-        return meshes_to_share(a.instances, document, scene,
-                               {a.options, a.texels.given() || a.finer.refine.has_value() ||
-                                               a.volume.given() || !leaves_levels_out(a, document)});
+        return meshes_to_share(
+            a.instances, document, scene,
+            {a.options, a.texels.given() || a.finer.refine.has_value() || !leaves_levels_out(a, document)});
     });
     if (a.texels.given() && a.levels != LevelMode::ignore && has_levels(document))
         print_notices(a.scene.string(), {"coarser levels of detail get no lightmap"});

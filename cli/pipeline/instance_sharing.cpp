@@ -68,7 +68,7 @@ SharedMeshes meshes_to_share(const InstanceArguments& arguments, const GltfDocum
     const bool must = arguments.mode == InstanceMode::shared;
     if (asked.other) {
         if (must)
-            throw Error("--instances shared is for vertices as they are: leave out texels, volumes and --refine");
+            throw Error("--instances shared is for vertices as they are: leave out --texels and --refine");
         return {};
     }
     SharedMeshes meshes = shared_meshes(document, scene);

@@ -29,7 +29,7 @@ struct InstanceArguments {
 
 struct AskedFor {
     const BakeOptions& options;
-    bool other; ///< texels, volumes, finer meshes or levels, which do not support shared transfer
+    bool other; ///< texels, finer meshes or levels, which do not support shared transfer
 };
 /// Returns the meshes whose instances share transfer; none if sharing is off. Sends a notice about meshes
 /// that cannot be shared. Throws `Error` if sharing is required but impossible.

@@ -5,8 +5,10 @@
 #include "prt/core/error.h"
 #include "prt/core/light.h"
 #include "prt/gltf/transfer_gltf.h"
+#include "prt/load/model.h"
 #include "support/glb_file.h"
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -336,6 +338,44 @@ TEST_F(SharedInstances, MixedWithSeparateInstancesAreCompared) {
     EXPECT_LT(read_json(folder / "errors.json")["relative_l2"], 0.05);
 }
 
+/// Probes see the flat scene, so that they do not depend on how surfaces store their transfer.
+TEST_F(SharedInstances, HaveTheVolumeOfSeparateInstances) {
+    boxes({0, 0, 0, 0, 1.2f, 0, 900, 5, 3}).write(folder / "boxes.glb");
+    const std::vector<std::string> options = {"--volume", "probes=300,bounds=-2,-2,-2,2,4,2", "--bounces",
+                                              "1"};
+    ASSERT_EQ(bake("boxes.glb", "own.glb", "own", options).status, 0);
+    std::vector<std::string> shared = options;
+    shared.insert(shared.end(), {"--instances", "error=9", "--json", at("bake.json")});
+    ASSERT_EQ(bake("boxes.glb", "shared.glb", "shared", shared).status, 0);
+    EXPECT_EQ(read_json(folder / "bake.json")["instances"]["shared"], 3);
+    EXPECT_GT(read_json(folder / "bake.json")["volume"]["probes"], 0);
+    EXPECT_EQ(validator_errors(folder / "shared.glb"), 0);
+    const auto volume_of = [&](const char* name) {
+        const GltfDocument document = load_gltf(folder / name);
+        const Scene scene = extract_scene(document);
+        std::optional<BakedVolume> volume = read_volume(document, scene);
+        if (volume) // the grid in the world: the scene of instances may have another origin
+            volume->grid.origin = glm::vec3(scene.world(volume->grid.origin));
+        return volume;
+    };
+    const std::optional<BakedVolume> own = volume_of("own.glb"), with = volume_of("shared.glb");
+    ASSERT_TRUE(own && with);
+    EXPECT_EQ(with->grid.origin, own->grid.origin);
+    EXPECT_EQ(with->baked.transfer.vectors, own->baked.transfer.vectors);
+
+    for (const char* name : {"own.glb", "shared.glb"})
+        ASSERT_EQ(prt({"compress", at(name), "-o", at((std::string("shipped_") + name).c_str())}).status, 0);
+    EXPECT_EQ(validator_errors(folder / "shipped_shared.glb"), 0);
+    const Model reference = load_model(folder / "shipped_own.glb"),
+                shipped = load_model(folder / "shipped_shared.glb");
+    ASSERT_TRUE(reference.volume && shipped.volume);
+    EXPECT_EQ(shipped.instances.size(), 3u);
+    const glm::dvec3 origin = shipped.scene.world(shipped.volume->grid.origin),
+                     wanted = reference.scene.world(reference.volume->grid.origin);
+    EXPECT_LT(glm::distance(origin, wanted), 1e-4); // rounding of floats at 900 m
+    EXPECT_EQ(shipped.volume->visibility.size(), reference.volume->visibility.size());
+}
+
 /// Options of an ordinary bake apply to meshes and to surfaces that are drawn once.
 TEST_F(SharedInstances, ReachTheTargetError) {
     write_boxes_on_ground();
@@ -503,8 +543,7 @@ TEST_F(SharedInstances, UnsupportedMeshesAreRejected) {
     EXPECT_NE(one.err.find("no transfer can be shared"), std::string::npos) << one.err;
     EXPECT_EQ(bake("boxes.glb", "auto.glb", "auto").status, 0);
     boxes({0, 0, 0, 3, 0, 0}).write(folder / "two.glb");
-    for (const std::vector<std::string>& options :
-         std::vector<std::vector<std::string>>{{"--volume", "1"}, {"--refine", "0.1"}})
+    for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{{"--refine", "0.1"}})
         EXPECT_EQ(bake("two.glb", "shared.glb", "shared", options).status, 1) << options[0];
     EXPECT_EQ(prt({"bake", at("two.glb"), "-o", at("shared.glb"), "--instances", "shared", "--texels", "4/m"})
                   .status,
