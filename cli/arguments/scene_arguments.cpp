@@ -29,7 +29,8 @@ constexpr Choice<InstanceMode> kInstanceModes[] = {
      "  an error if no mesh has at least two instances that can share\n"
      "  not with --texels and --refine\n"
      "  with subsurface scattering, instances of another scale than most of their mesh: as own\n"
-     "  not with lamps (use --lamps none), levels (use --levels ignore)"},
+     "  with coarser levels of detail, instances that have them: as own\n"
+     "  not with lamps (use --lamps none)"},
     {"auto", InstanceMode::automatic,
      "shared if possible and if it saves at least 3/4 of the rays of these meshes, else own"}};
 
@@ -59,7 +60,7 @@ void add_levels(CLI::App* command, LevelMode& mode) {
     choice(command, "--levels", mode, kLevelModes,
            "transfer of coarser levels: from level 0, own bakes, or none\n"
            "levels of detail: nodes of MSFT_lod, or sibling nodes with names as ROCK_LOD0, ROCK_LOD1\n"
-           "--texels: coarser levels get no lightmap; --instances shared: scenes with levels need ignore",
+           "--texels: coarser levels get no lightmap; --instances shared: instances with levels: as own",
            "carry");
 }
 

@@ -412,10 +412,12 @@ void run_instances(const BakeArguments& a, SharedMeshes meshes, GltfDocument& do
                    Session& session) {
     leave_out_shadows(scene, a.no_shadow);
     about(a.scene, [&] { separate_sides_of_meshes(sides_of(a), meshes, document, scene); });
+    std::optional<BakedLevels> levels = about(
+        a.scene, [&] { return find_levels(a.levels, a.scene, document, a.options.threads, print_notices); });
+    const FlatScene flat{document, scene, a.no_shadow};
     InstancedBake baked = about(a.scene, [&] {
         ProgressBar bar = session.progress_bar("baking");
-        return bake_shared(a.instances, {document, scene, a.no_shadow}, std::move(meshes), a.options,
-                           bar.progress());
+        return bake_shared(a.instances, flat, std::move(meshes), a.options, bar.progress());
     });
     if (!baked.document) {
         print_notices("instances",
@@ -425,27 +427,23 @@ void run_instances(const BakeArguments& a, SharedMeshes meshes, GltfDocument& do
         return;
     }
     const std::optional<VolumeBake> volume = bake_probes(a, scene, session);
+    about(a.scene, [&] {
+        if (!levels || a.levels == LevelMode::ignore)
+            return write_shared(baked, flat, nullptr, a.options, {});
+        ProgressBar bar = session.progress_bar("levels of detail");
+        write_shared(baked, flat, &*levels, a.options, bar.progress());
+    });
     const std::vector<std::byte> file = with_volume(a, *baked.document, scene, volume);
     Report report = instance_report({.output = a.output.string(),
                                      .scene = scene,
                                      .baked = baked,
                                      .error = a.instances.error,
                                      .bytes = session.write(a.output, file)});
+    if (levels)
+        add_level_bake(*levels, report);
     if (volume)
         add_volume_bake(*volume, report);
     publish(report, a.json, session);
-}
-
-/// Instances that share transfer have no levels.
-bool leaves_levels_out(const BakeArguments& a, const GltfDocument& document) {
-    if (a.levels == LevelMode::ignore || a.instances.mode == InstanceMode::own || !has_levels(document))
-        return true;
-    if (a.instances.mode == InstanceMode::shared)
-        throw Error(
-            a.scene.string() +
-            ": has levels of detail, which --instances shared does not support: use --levels ignore or "
-            "--instances own");
-    return false;
 }
 
 void check_arguments(const BakeArguments& a) {
@@ -489,9 +487,8 @@ void run(BakeArguments a, Session& session) {
     if (a.texels.given())
         room = about(a.scene, [&] { return make_room(a.texels, a.scene, document, scene); });
     const SharedMeshes meshes = about(a.scene, [&] {
-        return meshes_to_share(
-            a.instances, document, scene,
-            {a.options, a.texels.given() || a.finer.refine.has_value() || !leaves_levels_out(a, document)});
+        return meshes_to_share(a.instances, document, scene,
+                               {a.options, a.texels.given() || a.finer.refine.has_value(), a.levels});
     });
     if (a.texels.given() && a.levels != LevelMode::ignore && has_levels(document))
         print_notices(a.scene.string(), {"coarser levels of detail get no lightmap"});

@@ -4,8 +4,8 @@
 
 #include "bake/gltf/separate_sides.h"
 #include "bake/refine/sides.h"
+#include "cli/pipeline/instance_sharing.h"
 #include "cli/pipeline/no_shadow.h"
-#include "prt/bake/instance_bake.h"
 #include "prt/gltf/levels.h"
 #include "runtime/support/counted.h"
 
@@ -105,16 +105,22 @@ void separate_sides_of_meshes(const SidesRequest& request, SharedMeshes& meshes,
     if (request.sides == BackSides::shared)
         return;
     leave_out_shadows(scene, request.no_shadow);
-    const std::vector<bool> triangles = sides_to_separate(scene, request.options);
+    const bool leveled = request.levels && has_levels(document);
+    std::optional<Scene> levels;
+    if (leveled)
+        levels = scene_of_levels(document, request.no_shadow);
+    const Scene& all = levels ? *levels : scene;
+    const std::vector<bool> triangles = sides_to_separate(all, request.options);
     if (triangles.empty())
         return;
     SharedDocument shared = with_shared_meshes(document, meshes.meshes);
-    const Scene stored = extract_scene(shared.document);
-    const std::vector<bool> of_stored = triangles_of_meshes(scene, triangles, meshes, shared, stored);
+    const Scene stored = leveled ? extract_levels(shared.document).scene : extract_scene(shared.document);
+    const std::vector<bool> of_stored = triangles_of_meshes(all, triangles, meshes, shared, stored);
     document = with_separate_sides_of_meshes(std::move(shared), stored, of_stored);
     take_scene(request, triangles, document, scene);
-    meshes = shared_meshes(document, scene);
-    keep_one_scale(meshes, scene, request.options);
+    meshes = find_shared_meshes(document, scene, request.options,
+                                request.levels ? LevelMode::carry : LevelMode::ignore)
+                 .meshes;
 }
 
 } // namespace prt::pipeline

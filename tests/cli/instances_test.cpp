@@ -4,6 +4,7 @@
 #include "pipeline.h"
 #include "prt/core/error.h"
 #include "prt/core/light.h"
+#include "prt/gltf/levels.h"
 #include "prt/gltf/transfer_gltf.h"
 #include "prt/load/model.h"
 #include "support/glb_file.h"
@@ -507,6 +508,58 @@ TEST_F(SharedInstances, ShadowNeighborsOfMarble) {
     EXPECT_LT(opaque, 0.15);
     EXPECT_LT(scattering, 1.1 * opaque);
     EXPECT_GT(confused, 1.5 * scattering);
+}
+
+/// Nodes with levels are drawn once. Instances around them share transfer.
+TEST_F(SharedInstances, ExistNextToCoarserLevels) {
+    write_boxes_on_ground();
+    GlbFile file = read_glb(folder / "ground.glb");
+    for (int copy = 0; copy < 2; ++copy)
+        file.json["meshes"].push_back(file.json["meshes"][0]);
+    file.json["nodes"].push_back({{"mesh", 2}, {"translation", {-1.6, 0, 0}}}); // node 2: a statue
+    file.json["nodes"].push_back({{"mesh", 3}, {"translation", {-1.6, 0, 0}}});
+    file.json["nodes"].push_back({{"mesh", 0}, {"translation", {0, 0, 2.2}}}); // node 4: of the shared mesh
+    file.json["nodes"].push_back({{"mesh", 3}, {"translation", {0, 0, 2.2}}});
+    for (const int node : {2, 4})
+        file.json["nodes"][static_cast<std::size_t>(node)]["extensions"]["MSFT_lod"]["ids"] = {node + 1};
+    file.json["extensionsUsed"].push_back("MSFT_lod");
+    file.json["scenes"] = {{{"nodes", {0, 1, 2, 4}}}};
+    file.write(folder / "levels.glb");
+    const auto coarser_levels = [&](const char* name) {
+        const GltfDocument document = load_gltf(folder / name, {.instancing = Instancing::separate});
+        const LeveledScene levels = extract_levels(document);
+        EXPECT_EQ(levels.nodes.size(), 2u);
+        const Transfer all = read_transfer(document, levels.scene)->transfer;
+        const std::size_t first = levels.finest_receivers * all.dimension();
+        return std::vector<float>(all.vectors.begin() + static_cast<std::ptrdiff_t>(first),
+                                  all.vectors.end());
+    };
+    for (const char* mode : {"carry", "own"}) {
+        const std::vector<std::string> options = {"--levels", mode,     "--denoise",
+                                                  "off",      "--json", at("bake.json")};
+        ASSERT_EQ(bake("levels.glb", "own.glb", "own", options).status, 0);
+        std::vector<std::string> shared = options;
+        shared.insert(shared.end(), {"--instances", "error=9"});
+        ASSERT_EQ(bake("levels.glb", "shared.glb", "shared", shared).status, 0);
+        EXPECT_EQ(read_json(folder / "bake.json")["instances"]["shared"], 3);
+        EXPECT_EQ(read_json(folder / "bake.json")["levels"]["nodes"], 2);
+        EXPECT_EQ(validator_errors(folder / "shared.glb"), 0);
+        const std::vector<float> wanted = coarser_levels("own.glb"), found = coarser_levels("shared.glb");
+        ASSERT_EQ(found.size(), wanted.size());
+        ASSERT_EQ(found.size(), 2 * 24 * 9u);
+        double wrong = 0, norm = 0;
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            wrong += std::pow(static_cast<double>(found[i] - wanted[i]), 2);
+            norm += std::pow(static_cast<double>(wanted[i]), 2);
+        }
+        EXPECT_LT(std::sqrt(wrong / norm), 2e-3) << mode; // the same rays, stored in 16 bits
+    }
+    ASSERT_EQ(prt({"compress", at("shared.glb"), "-o", at("shipped.glb")}).status, 0);
+    EXPECT_EQ(validator_errors(folder / "shipped.glb"), 0);
+    ASSERT_EQ(prt({"evaluate", at("shared.glb"), at("shipped.glb"), "--json", at("errors.json")}).status, 0);
+    EXPECT_LT(read_json(folder / "errors.json")["levels"][0]["shipped_relative_l2"], 0.1);
+    EXPECT_EQ(read_json(folder / "errors.json")["instances"][0]["count"], 3);
+    EXPECT_EQ(load_model(folder / "shipped.glb").instances.size(), 3u);
 }
 
 TEST_F(SharedInstances, UnsupportedMatricesGetSeparateTransfer) {
