@@ -259,4 +259,14 @@ GltfDocument with_separate_sides(GltfDocument document, const Scene& scene,
     return reparse(document);
 }
 
+GltfDocument with_separate_sides_of_meshes(SharedDocument shared, const Scene& stored,
+                                           const std::vector<bool>& triangles) {
+    named(shared.document, [&](GltfContents& contents) { make_meshes_unique(contents, stored); });
+    GltfDocument document = reparse(shared.document, Instancing::separate);
+    named(document, [&](GltfContents& contents) { SideSeparator(contents, stored, triangles).separate(); });
+    document = reparse(document);
+    named(document, [](GltfContents& contents) { contents.remove_transfer(); });
+    return document;
+}
+
 } // namespace prt

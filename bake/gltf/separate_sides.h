@@ -4,6 +4,7 @@
 // Experimental.
 
 #include "prt/gltf/gltf.h"
+#include "prt/gltf/transfer_gltf.h"
 #include "prt/load/scene.h"
 
 #include <vector>
@@ -20,5 +21,12 @@ namespace prt {
 /// the file name, if `document` is damaged or becomes too large.
 GltfDocument with_separate_sides(GltfDocument document, const Scene& scene,
                                  const std::vector<bool>& triangles);
+
+/// Returns `shared.document`, a result of `with_shared_meshes` without factors, with separate sides in the
+/// form of `Instancing::nodes`: instances of a shared mesh draw one mesh, and share the new vertices.
+/// `stored` must be extracted from `shared.document`; `triangles` are [triangles of `stored`]. Otherwise like
+/// `with_separate_sides`.
+GltfDocument with_separate_sides_of_meshes(SharedDocument shared, const Scene& stored,
+                                           const std::vector<bool>& triangles);
 
 } // namespace prt

@@ -27,8 +27,10 @@ constexpr Choice<InstanceMode> kInstanceModes[] = {
      "bake a mesh once; 52 bytes per instance describe the effect of its surroundings\n"
      "  instances that are mirrored, sheared, skinned or morphed, or have unequal scale: as own\n"
      "  an error if no mesh has at least two instances that can share\n"
-     "  not with --texels, --volume, --refine, --target-error, --fit surface, --method raster\n"
-     "  not with subsurface scattering, lamps (use --lamps none), levels (use --levels ignore)"},
+     "  not with --texels and --refine\n"
+     "  with subsurface scattering, instances of another scale than most of their mesh: as own\n"
+     "  with coarser levels of detail, instances that have them: as own\n"
+     "  not with lamps (use --lamps none)"},
     {"auto", InstanceMode::automatic,
      "shared if possible and if it saves at least 3/4 of the rays of these meshes, else own"}};
 
@@ -58,7 +60,7 @@ void add_levels(CLI::App* command, LevelMode& mode) {
     choice(command, "--levels", mode, kLevelModes,
            "transfer of coarser levels: from level 0, own bakes, or none\n"
            "levels of detail: nodes of MSFT_lod, or sibling nodes with names as ROCK_LOD0, ROCK_LOD1\n"
-           "--texels: coarser levels get no lightmap; --instances shared: scenes with levels need ignore",
+           "--texels: coarser levels get no lightmap; --instances shared: instances with levels: as own",
            "carry");
 }
 

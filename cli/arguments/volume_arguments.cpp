@@ -46,7 +46,6 @@ void add_volume(CLI::App* command, VolumeArguments& arguments) {
             })
             .detail("METRES: distance between probes near surfaces, 1e-9 to 1e9; it is larger in open space\n"
                     "with --high-poly, probes receive the light of that model")
-            .detail("not with --instances shared; --instances auto acts as own")
             .whole_number("probes", 125, 1 << 28,
                           "instead of METRES, as --volume probes=4000: at most N probes, 125 to 2^28",
                           [&volume, check_one](int count) {

@@ -55,7 +55,7 @@ constexpr Choice<BakeMethod> kBakeMethods[] = {
     {"raster", BakeMethod::raster,
      "depth maps from --rays N directions, by OpenGL 4.5, for direct light of the sky at surfaces\n"
      "  bounces, lamps, probes of --volume and errors for --refine: rays, as with --method trace\n"
-     "  not with --instances shared; --instances auto acts as own\n"
+     "  the light that --instances shares: also rays, on the CPU\n"
      "  --device auto: a hardware GPU, else error; gpu: also a software driver; others: error"}};
 constexpr Choice<std::optional<TransferStorage>> kStorages[] = {
     {"auto", std::nullopt,
@@ -162,7 +162,7 @@ void add_subsurface(CLI::App* command, SubsurfaceOptions& subsurface) {
                 "\n"
                 "repeat the option for several materials, each once; type an entry for all materials\n"
                 "  first: it replaces the entries before it\n"
-                "an unknown material is an error; not with --texels and --instances shared\n"
+                "an unknown material is an error; not with --texels\n"
                 "default: materials scatter that have KHR_materials_diffuse_transmission, and\n"
                 "  KHR_materials_volume with thickness and attenuation distance\n"
                 "  an entry of --subsurface replaces their medium")
@@ -234,7 +234,7 @@ void add_method(CLI::App* command, BakeOptions& options) {
             "not with --texels\n"
             "with --refine: auto acts as surface; vertex is an error\n"
             "with --target-error, --method raster and shared instances: auto acts as vertex\n"
-            "  surface: an error with --instances shared; --instances auto then acts as own");
+            "  surface: --instances fits shared transfer, but its factors to light at vertices");
     Suboptions("--method", names_of(kBakeMethods), "method that finds which directions are blocked",
                [&options](const std::string& name) {
                    options.tracer.method = chosen("--method", kBakeMethods, name);
@@ -419,12 +419,16 @@ void run_texels(const BakeArguments& a, GltfDocument& document, Scene& scene, co
     publish(report, a.json, session);
 }
 
-void run_instances(const BakeArguments& a, const SharedMeshes& meshes, GltfDocument& document, Scene& scene,
+void run_instances(const BakeArguments& a, SharedMeshes meshes, GltfDocument& document, Scene& scene,
                    Session& session) {
     leave_out_shadows(scene, a.no_shadow);
+    about(a.scene, [&] { separate_sides_of_meshes(sides_of(a), meshes, document, scene); });
+    std::optional<BakedLevels> levels = about(
+        a.scene, [&] { return find_levels(a.levels, a.scene, document, a.options.threads, print_notices); });
+    const FlatScene flat{document, scene, a.no_shadow};
     InstancedBake baked = about(a.scene, [&] {
         ProgressBar bar = session.progress_bar("baking");
-        return bake_shared(a.instances, {document, scene, a.no_shadow}, meshes, a.options, bar.progress());
+        return bake_shared(a.instances, flat, std::move(meshes), a.options, bar.progress());
     });
     if (!baked.document) {
         print_notices("instances",
@@ -433,26 +437,24 @@ void run_instances(const BakeArguments& a, const SharedMeshes& meshes, GltfDocum
         run_vertices(a, document, scene, session);
         return;
     }
-    about(a.scene, [&] { note_shared_sides(sides_of(a), scene); });
-    const std::vector<std::byte> file = with_volume(a, *baked.document, scene, std::nullopt);
+    const std::optional<VolumeBake> volume = bake_probes(a, scene, session);
+    about(a.scene, [&] {
+        if (!levels || a.levels == LevelMode::ignore)
+            return write_shared(baked, flat, nullptr, a.options, {});
+        ProgressBar bar = session.progress_bar("levels of detail");
+        write_shared(baked, flat, &*levels, a.options, bar.progress());
+    });
+    const std::vector<std::byte> file = with_volume(a, *baked.document, scene, volume);
     Report report = instance_report({.output = a.output.string(),
                                      .scene = scene,
                                      .baked = baked,
                                      .error = a.instances.error,
                                      .bytes = session.write(a.output, file)});
+    if (levels)
+        add_level_bake(*levels, report);
+    if (volume)
+        add_volume_bake(*volume, report);
     publish(report, a.json, session);
-}
-
-/// Instances that share transfer have no levels.
-bool leaves_levels_out(const BakeArguments& a, const GltfDocument& document) {
-    if (a.levels == LevelMode::ignore || a.instances.mode == InstanceMode::own || !has_levels(document))
-        return true;
-    if (a.instances.mode == InstanceMode::shared)
-        throw Error(
-            a.scene.string() +
-            ": has levels of detail, which --instances shared does not support: use --levels ignore or "
-            "--instances own");
-    return false;
 }
 
 void check_arguments(const BakeArguments& a) {
@@ -494,8 +496,7 @@ void run(BakeArguments a, Session& session) {
         room = about(a.scene, [&] { return make_room(a.texels, a.scene, document, scene); });
     const SharedMeshes meshes = about(a.scene, [&] {
         return meshes_to_share(a.instances, document, scene,
-                               {a.options, a.texels.given() || a.finer.refine.has_value() ||
-                                               a.volume.given() || !leaves_levels_out(a, document)});
+                               {a.options, a.texels.given() || a.finer.refine.has_value(), a.levels});
     });
     if (a.texels.given() && a.levels != LevelMode::ignore && has_levels(document))
         print_notices(a.scene.string(), {"coarser levels of detail get no lightmap"});
@@ -538,8 +539,8 @@ void add_bake(CLI::App& app, Session& session) {
             "X: above 0; 0.01: 1 %; over the whole surface, before --denoise; sky only, not lamps\n"
             "the number of rays differs between vertices, at most 2^24 each; default: that of --rays\n"
             "  it is the same for all with --texels, --fit surface, --refine and --method raster\n"
-            "no effect on probes of --volume and on the errors for --refine; not with --rays and\n"
-            "  --instances shared")
+            "with shared instances: of each mesh alone, and of all surfaces that are drawn once\n"
+            "no effect on probes of --volume and on the errors for --refine; not with --rays")
         ->check(above_zero())
         ->excludes(rays);
     add_transport(command, a.options);
@@ -549,8 +550,10 @@ void add_bake(CLI::App& app, Session& session) {
     add_no_shadow(command, a.no_shadow, "\nno effect on the model of --high-poly");
     add_method(command, a.options);
     add_refinement(command, a);
-    add_back_sides(command, a.back_sides,
-                   "\nalways shared if --instances shares transfer, and for --texels without unwrap");
+    add_back_sides(
+        command, a.back_sides,
+        "\nalways shared for --texels without unwrap\n"
+        "instances that share transfer have the same vertices: light at one of them is sufficient");
     add_texels(command, a.texels,
                "bake lightmaps instead of vertices: N x N texels, or N per metre\n"
                "not with --fit, --refine and --instances shared\n"

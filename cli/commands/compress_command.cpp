@@ -109,7 +109,7 @@ Bake of_lightmap(GltfDocument document, Scene scene, BakedLightmap lightmap) {
 
 /// Returns the levels of the document if they have transfer.
 std::optional<LeveledScene> levels_to_compress(const GltfDocument& document) {
-    if (!has_levels(document) || holds_instances(document))
+    if (!has_levels(document))
         return std::nullopt;
     LeveledScene levels = extract_levels(document);
     return levels_have_transfer(document, levels) ? std::optional(std::move(levels)) : std::nullopt;
@@ -190,10 +190,8 @@ std::optional<CompressedVolumeResult> compress_probes(const CompressArguments& a
 constexpr float kShareOfCoarser = 1e-3f;
 
 std::vector<float> areas_to_compress(const Bake& bake) {
-    if (!bake.levels)
-        return instanced_areas(bake.document, bake.scene);
-    std::vector<float> areas = receiver_areas(bake.scene);
-    for (std::size_t p = bake.finest_receivers; p < areas.size(); ++p)
+    std::vector<float> areas = instanced_areas(bake.document, bake.scene);
+    for (std::size_t p = bake.finest_receivers; bake.levels && p < areas.size(); ++p)
         areas[p] *= kShareOfCoarser;
     return areas;
 }
@@ -324,7 +322,8 @@ Written written(const CompressArguments& a, std::vector<std::byte> file, const B
     if (bake.levels) {
         LeveledScene levels = extract_levels(read.document);
         ClusteredTransfer all = std::move(read_clustered(read.document, levels.scene)->transfer);
-        std::vector<float> areas = areas_of_level(levels, 0);
+        std::vector<float> areas = instanced_areas(read.document, levels.scene);
+        std::fill(areas.begin() + static_cast<std::ptrdiff_t>(levels.finest_receivers), areas.end(), 0.0f);
         std::vector<std::vector<float>> coarser;
         for (std::size_t level = 1; level <= levels.deepest(); ++level)
             coarser.push_back(areas_of_level(levels, level));

@@ -4,6 +4,7 @@
 
 #include "bake/gltf/separate_sides.h"
 #include "bake/refine/sides.h"
+#include "cli/pipeline/instance_sharing.h"
 #include "cli/pipeline/no_shadow.h"
 #include "prt/gltf/levels.h"
 #include "runtime/support/counted.h"
@@ -40,20 +41,9 @@ Scene scene_of_levels(const GltfDocument& document, const std::vector<std::strin
     return std::move(scene);
 }
 
-} // namespace
-
-void separate_sides(const SidesRequest& request, GltfDocument& document, Scene& scene) {
-    if (request.sides == BackSides::shared)
-        return;
-    leave_out_shadows(scene, request.no_shadow);
-    std::optional<Scene> levels;
-    if (request.levels && has_levels(document))
-        levels = scene_of_levels(document, request.no_shadow);
-    const Scene& all = levels ? *levels : scene;
-    const std::vector<bool> triangles = sides_to_separate(all, request.options);
-    if (triangles.empty())
-        return;
-    document = with_separate_sides(std::move(document), all, triangles);
+/// Takes the scene of a document with separate sides of `triangles`, and sends a notice.
+void take_scene(const SidesRequest& request, const std::vector<bool>& triangles, const GltfDocument& document,
+                Scene& scene) {
     Scene separate = extract_scene(document);
     leave_out_shadows(separate, request.no_shadow);
     separate.notices = std::move(scene.notices); // notices of the input file
@@ -68,14 +58,69 @@ void separate_sides(const SidesRequest& request, GltfDocument& document, Scene& 
     scene.notices.push_back(notice);
 }
 
-void note_shared_sides(const SidesRequest& request, const Scene& scene) {
-    const std::vector<bool> triangles =
-        request.sides == BackSides::shared ? std::vector<bool>{} : sides_to_separate(scene, request.options);
-    if (!triangles.empty())
-        send(request.notify, request.path,
-             {fmt::format("light reaches the back sides of {}; instances with shared transfer show the light "
-                          "of the front sides there",
-                          double_sided(triangles))});
+/// Returns the triangles of the stored scene that correspond to any of `triangles` of the flat scene.
+std::vector<bool> triangles_of_meshes(const Scene& scene, const std::vector<bool>& triangles,
+                                      const SharedMeshes& meshes, const SharedDocument& shared,
+                                      const Scene& stored) {
+    std::vector<int> node_of = shared.node_of; // node of `stored` that draws the triangles of a node
+    for (std::size_t m = 0; m < meshes.meshes.size(); ++m)
+        for (const MeshPlacement& placement : meshes.meshes[m].placements)
+            node_of[static_cast<std::size_t>(placement.node)] = shared.mesh_nodes[m];
+    std::map<std::pair<int, int>, std::size_t> first; // first triangle by node and primitive of `stored`
+    std::vector<bool> result;
+    for (const Primitive& primitive : stored.primitives) {
+        first[{primitive.node, primitive.primitive}] = result.size();
+        result.resize(result.size() + primitive.triangles.size());
+    }
+    std::size_t next = 0;
+    for (const Primitive& primitive : scene.primitives) {
+        const std::size_t to =
+            first.at({node_of[static_cast<std::size_t>(primitive.node)], primitive.primitive});
+        for (std::size_t t = 0; t < primitive.triangles.size(); ++t)
+            if (triangles[next++])
+                result[to + t] = true;
+    }
+    return result;
+}
+
+} // namespace
+
+void separate_sides(const SidesRequest& request, GltfDocument& document, Scene& scene) {
+    if (request.sides == BackSides::shared)
+        return;
+    leave_out_shadows(scene, request.no_shadow);
+    std::optional<Scene> levels;
+    if (request.levels && has_levels(document))
+        levels = scene_of_levels(document, request.no_shadow);
+    const Scene& all = levels ? *levels : scene;
+    const std::vector<bool> triangles = sides_to_separate(all, request.options);
+    if (triangles.empty())
+        return;
+    document = with_separate_sides(std::move(document), all, triangles);
+    take_scene(request, triangles, document, scene);
+}
+
+void separate_sides_of_meshes(const SidesRequest& request, SharedMeshes& meshes, GltfDocument& document,
+                              Scene& scene) {
+    if (request.sides == BackSides::shared)
+        return;
+    leave_out_shadows(scene, request.no_shadow);
+    const bool leveled = request.levels && has_levels(document);
+    std::optional<Scene> levels;
+    if (leveled)
+        levels = scene_of_levels(document, request.no_shadow);
+    const Scene& all = levels ? *levels : scene;
+    const std::vector<bool> triangles = sides_to_separate(all, request.options);
+    if (triangles.empty())
+        return;
+    SharedDocument shared = with_shared_meshes(document, meshes.meshes);
+    const Scene stored = leveled ? extract_levels(shared.document).scene : extract_scene(shared.document);
+    const std::vector<bool> of_stored = triangles_of_meshes(all, triangles, meshes, shared, stored);
+    document = with_separate_sides_of_meshes(std::move(shared), stored, of_stored);
+    take_scene(request, triangles, document, scene);
+    meshes = find_shared_meshes(document, scene, request.options,
+                                request.levels ? LevelMode::carry : LevelMode::ignore)
+                 .meshes;
 }
 
 } // namespace prt::pipeline

@@ -5,6 +5,7 @@
 #include "cli/pipeline/model.h"
 #include "prt/bake/bake.h"
 #include "prt/gltf/gltf.h"
+#include "prt/gltf/transfer_gltf.h"
 
 #include <string>
 #include <vector>
@@ -28,7 +29,9 @@ struct SidesRequest {
 /// Replaces document and scene by ones with separate vertices for both sides of double-sided surfaces, if the
 /// light of the sides differs. Reports this as a notice, which is also added to the scene.
 void separate_sides(const SidesRequest& request, GltfDocument& document, Scene& scene);
-/// Sends a notice about the sides of `scene` that need separate vertices but do not get them.
-void note_shared_sides(const SidesRequest& request, const Scene& scene);
+/// Like `separate_sides`, for a scene in which instances of `meshes` share transfer: a triangle of a mesh is
+/// separated if light reaches its back in any instance. Replaces `meshes` by those of the new document.
+void separate_sides_of_meshes(const SidesRequest& request, SharedMeshes& meshes, GltfDocument& document,
+                              Scene& scene);
 
 } // namespace prt::pipeline

@@ -9,6 +9,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <map>
+#include <set>
 
 namespace prt::pipeline {
 namespace {
@@ -54,7 +56,57 @@ SharedMeshes without_bad_ones(const SharedMeshes& meshes, const std::vector<doub
     return kept;
 }
 
+/// Nodes that coarser levels of detail replace.
+std::set<int> leveled_nodes(const GltfDocument& document) {
+    const LeveledScene levels = extract_levels(document);
+    std::set<int> nodes;
+    for (const LeveledNode& node : levels.nodes)
+        for (const std::size_t p : node.finest)
+            nodes.insert(levels.scene.primitives[p].node);
+    return nodes;
+}
+
+/// Returns the transfer of the flat scene. That of instances is zero: levels do not read it.
+Transfer flat_transfer(const FlatScene& flat, const InstancedBake& baked) {
+    const Transfer& stored = baked.bake.baked.transfer;
+    Transfer all = zero_transfer(stored.layout, flat.scene.receivers());
+    std::set<int> shared;
+    for (const SharedMesh& mesh : baked.meshes.meshes)
+        for (const MeshPlacement& placement : mesh.placements)
+            shared.insert(placement.node);
+    std::map<std::pair<int, int>, std::size_t> arrays; // by node and primitive of the stored scene
+    for (const Primitive& primitive : baked.stored.primitives)
+        arrays[{primitive.node, primitive.primitive}] = primitive.vertices;
+    for (const Primitive& primitive : flat.scene.primitives) {
+        if (shared.contains(primitive.node))
+            continue;
+        const int node = baked.node_of[static_cast<std::size_t>(primitive.node)];
+        const VertexArray &to = flat.scene.vertex_arrays[primitive.vertices],
+                          &from = baked.stored.vertex_arrays[arrays.at({node, primitive.primitive})];
+        for (std::size_t v = 0; v < to.size(); ++v)
+            std::ranges::copy(stored.vector(from.first_receiver + v),
+                              all.vector(to.first_receiver + v).begin());
+    }
+    return all;
+}
+
 } // namespace
+
+FoundMeshes find_shared_meshes(const GltfDocument& document, const Scene& scene, const BakeOptions& options,
+                               LevelMode levels) {
+    FoundMeshes found{shared_meshes(document, scene)};
+    if (levels != LevelMode::ignore && has_levels(document)) {
+        const std::set<int> leveled = leveled_nodes(document);
+        const std::size_t before = found.meshes.placements();
+        for (SharedMesh& mesh : found.meshes.meshes)
+            std::erase_if(mesh.placements,
+                          [&](const MeshPlacement& placement) { return leveled.contains(placement.node); });
+        std::erase_if(found.meshes.meshes, [](const SharedMesh& mesh) { return mesh.placements.size() < 2; });
+        found.leveled = before - found.meshes.placements();
+    }
+    found.other_scales = keep_one_scale(found.meshes, scene, options);
+    return found;
+}
 
 SharedMeshes meshes_to_share(const InstanceArguments& arguments, const GltfDocument& document,
                              const Scene& scene, const AskedFor& asked) {
@@ -68,17 +120,12 @@ SharedMeshes meshes_to_share(const InstanceArguments& arguments, const GltfDocum
     const bool must = arguments.mode == InstanceMode::shared;
     if (asked.other) {
         if (must)
-            throw Error(
-                "--instances shared is for vertices as they are: leave out texels, volumes and --refine");
+            throw Error("--instances shared is for vertices as they are: leave out --texels and --refine");
         return {};
     }
-    SharedMeshes meshes = shared_meshes(document, scene);
-    const bool other_light =
-        asked.options.target_error || asked.options.fit == FitMode::surface ||
-        asked.options.tracer.method == BakeMethod::raster || !asked.options.subsurface.media.empty() ||
-        std::ranges::any_of(scene.materials,
-                            [](const Material& material) { return medium_of(material).has_value(); });
-    if (!must && (other_light || !pays(arguments, meshes, scene)))
+    FoundMeshes found = find_shared_meshes(document, scene, asked.options, asked.levels);
+    SharedMeshes& meshes = found.meshes;
+    if (!must && !pays(arguments, meshes, scene))
         return {};
     if (must && meshes.meshes.empty())
         throw Error("no mesh is drawn twice by nodes with rotation, translation and uniform scale: no "
@@ -88,6 +135,14 @@ SharedMeshes meshes_to_share(const InstanceArguments& arguments, const GltfDocum
              {fmt::format("{} are mirrored, {} singular, sheared or scaled unevenly, and {} bent by skins "
                           "or morph targets: these are baked alone",
                           meshes.mirrored, meshes.uneven, meshes.bent)});
+    if (found.leveled > 0)
+        send(arguments.notify, "instances",
+             {fmt::format("{} have coarser levels of detail: these are baked alone", found.leveled)});
+    if (found.other_scales > 0)
+        send(arguments.notify, "instances",
+             {fmt::format("{} contain a medium, whose lengths do not scale, and have another scale than most "
+                          "instances of their mesh: these are baked alone",
+                          found.other_scales)});
     return meshes;
 }
 
@@ -122,12 +177,38 @@ InstancedBake bake_shared(const InstanceArguments& arguments, const FlatScene& f
             return result;
         if (!good)
             continue;
-        write_transfer(shared.document, stored, result.bake.baked);
-        write_instances(shared.document, result.bake.instances);
+        result.node_of = std::move(shared.node_of);
         result.document = std::move(shared.document);
+        result.stored = std::move(stored);
     }
     result.meshes = std::move(meshes);
     return result;
+}
+
+void write_shared(InstancedBake& baked, const FlatScene& flat, BakedLevels* levels,
+                  const BakeOptions& options, const Progress& progress) {
+    GltfDocument& document = *baked.document;
+    BakedTransfer& transfer = baked.bake.baked;
+    if (!levels) {
+        write_transfer(document, baked.stored, transfer);
+        write_instances(document, baked.bake.instances);
+        return;
+    }
+    // Nodes with levels are drawn once: their transfer is the same in both scenes.
+    Scene stored = extract_levels(document).scene;
+    leave_out_shadows(levels->scene.scene, flat.no_shadow);
+    leave_out_shadows(stored, flat.no_shadow);
+    bake_levels(*levels, flat_transfer(flat, baked), options, progress);
+    const Transfer& all = levels->bake.transfer;
+    const std::size_t coarser = all.receivers() - levels->scene.finest_receivers;
+    if (stored.receivers() != baked.stored.receivers() + coarser)
+        throw Error("coarser levels of detail differ in the scene of shared meshes; use --levels ignore");
+    BakedTransfer whole{transfer.transfer, transfer.record, transfer.storage};
+    whole.transfer.vectors.insert(whole.transfer.vectors.end(),
+                                  all.vectors.end() - static_cast<std::ptrdiff_t>(coarser * all.dimension()),
+                                  all.vectors.end());
+    write_transfer(document, stored, whole);
+    write_instances(document, baked.bake.instances);
 }
 
 } // namespace prt::pipeline

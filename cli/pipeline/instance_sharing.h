@@ -3,6 +3,7 @@
 // Selects instanced meshes that share transfer, and bakes them.
 
 #include "cli/pipeline/loaded_light.h"
+#include "cli/pipeline/model_levels.h"
 #include "prt/bake/instance_bake.h"
 
 #include <optional>
@@ -29,15 +30,29 @@ struct InstanceArguments {
 
 struct AskedFor {
     const BakeOptions& options;
-    bool other; ///< texels, volumes or finer meshes, which do not support shared transfer
+    bool other; ///< texels or finer meshes, which do not support shared transfer
+    LevelMode levels = LevelMode::ignore;
 };
+
+/// Meshes whose instances share transfer, and numbers of instances that are baked separately.
+struct FoundMeshes {
+    SharedMeshes meshes;
+    std::size_t other_scales = 0, ///< instances of meshes with a medium that have another scale than most
+        leveled = 0;              ///< instances that coarser levels of detail replace
+};
+FoundMeshes find_shared_meshes(const GltfDocument& document, const Scene& scene, const BakeOptions& options,
+                               LevelMode levels);
+
 /// Returns the meshes whose instances share transfer; none if sharing is off. Sends a notice about meshes
 /// that cannot be shared. Throws `Error` if sharing is required but impossible.
 SharedMeshes meshes_to_share(const InstanceArguments& arguments, const GltfDocument& document,
                              const Scene& scene, const AskedFor& asked);
 
 struct InstancedBake {
-    std::optional<GltfDocument> document; ///< document to write; empty if no instance can share
+    /// Document without transfer, in the form of `Instancing::separate`; empty if no instance can share.
+    std::optional<GltfDocument> document;
+    Scene stored;             ///< the scene of `document`
+    std::vector<int> node_of; ///< [nodes of the flat document] node of `document`; -1: none
     InstanceBake bake;
     SharedMeshes meshes;              ///< meshes that share in the result
     std::vector<double> first_errors; ///< errors of all instances in the first pass
@@ -55,5 +70,10 @@ struct FlatScene {
 /// cannot be read.
 InstancedBake bake_shared(const InstanceArguments& arguments, const FlatScene& flat, SharedMeshes meshes,
                           const BakeOptions& options, const Progress& progress);
+
+/// Writes transfer and factors into `baked.document`. `levels`: coarser levels of the nodes of `flat` that do
+/// not share; their transfer is added. May be null.
+void write_shared(InstancedBake& baked, const FlatScene& flat, BakedLevels* levels,
+                  const BakeOptions& options, const Progress& progress);
 
 } // namespace prt::pipeline

@@ -3,6 +3,7 @@
 #include "cli/pipeline/level_errors.h"
 
 #include "bake/gltf/reorder.h"
+#include "bake/gltf/reparse.h"
 #include "prt/bake/level_bake.h"
 
 #include <algorithm>
@@ -18,8 +19,10 @@ struct LeveledModel {
 };
 
 std::optional<LeveledModel> leveled_model(const GltfDocument& document) {
-    if (!has_levels(document) || holds_instances(document))
+    if (!has_levels(document))
         return std::nullopt;
+    if (shares_instances(document)) // as the transfer is stored
+        return leveled_model(reparse(document, Instancing::separate));
     LeveledModel model{extract_levels(document), {}};
     if (!levels_have_transfer(document, model.scene))
         return std::nullopt;
@@ -123,6 +126,11 @@ void add_level_errors(const LevelFiles& files, const std::vector<LoadedLight>& l
         return;
     const std::optional<LeveledModel> shipped = about(
         files.shipped_path, [&] { return leveled_model(load_gltf(files.shipped_path, files.reading)); });
+    if (shipped && shipped->scene.scene.receivers() != baked->scene.scene.receivers()) {
+        report.notes.emplace_back(
+            "errors of coarser levels of detail: only one of the files shares transfer between instances");
+        return;
+    }
     if (!shipped) {
         report.notes.emplace_back(
             "errors of coarser levels of detail: the shipped file has no transfer for them");

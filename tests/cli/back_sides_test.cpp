@@ -165,6 +165,46 @@ TEST_F(BackSides, ExistInCoarserLevels) {
     }
 }
 
+/// Instances share the vertices of both sides, also as EXT_mesh_gpu_instancing and next to a mirrored node.
+TEST_F(BackSides, AreSharedByInstances) {
+    for (const bool instancing : {false, true}) {
+        GlbFile file = roof_file();
+        const std::size_t floor =
+            file.accessor(std::vector<float>{0, 0, 0, 0, 0, 1000, 0, 0, 2000}, kFloat, "VEC3", 3);
+        file.json["nodes"] = {{{"mesh", 0}, {"translation", {500, 0, 0}}, {"scale", {-1, 1, 1}}}};
+        if (instancing) {
+            file.json["nodes"].push_back({{"mesh", 0}});
+            file.json["nodes"][1]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] =
+                floor;
+            file.json["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};
+            file.json["scenes"] = {{{"nodes", {0, 1}}}};
+        } else {
+            for (const int z : {0, 1000, 2000})
+                file.json["nodes"].push_back({{"mesh", 0}, {"translation", {0, 0, z}}});
+            file.json["scenes"] = {{{"nodes", {0, 1, 2, 3}}}};
+        }
+        file.write(folder / "roof.glb");
+        const std::size_t fronts = extract_scene(load_gltf(folder / "roof.glb")).receivers();
+        ASSERT_EQ(bake("roof.glb", "own.glb").status, 0);
+        const Outcome baked = bake("roof.glb", "shared.glb", {"--instances", "shared"});
+        ASSERT_EQ(baked.status, 0) << baked.err;
+        EXPECT_NE(baked.err.find("the back sides of 72 double-sided triangles; 216 vertices were added"),
+                  std::string::npos)
+            << baked.err;
+        const nlohmann::json told = read_json(folder / "b.json");
+        EXPECT_EQ(told["receivers"], fronts + 4 * 54);
+        EXPECT_EQ(told["receivers_stored"], (fronts + 4 * 54) / 2); // of the mesh, and of the mirrored node
+        EXPECT_EQ(told["instances"]["shared"], 3);
+        EXPECT_NE(validator_errors(folder / "shared.glb"), 1);
+        EXPECT_EQ(read_glb(folder / "shared.glb").json["nodes"].size(), instancing ? 2u : 4u);
+        const Outcome compared =
+            prt({"evaluate", at("own.glb"), at("shared.glb"), "--json", at("errors.json")});
+        ASSERT_EQ(compared.status, 0) << compared.err;
+        // The same light except for the noise of 64 rays; the light of the front would be twice as strong.
+        EXPECT_LT(read_json(folder / "errors.json")["relative_l2"], 0.1);
+    }
+}
+
 /// The underside of the roof is unshadowed if its material casts no shadow, also in texels.
 TEST_F(BackSides, SeeThroughMaterialsWithoutShadow) {
     scene_file(SceneBuilder().floor({0, 1, 0}, 1, 3).sphere({0, 1, 0}, 3, 8).build())

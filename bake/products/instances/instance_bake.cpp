@@ -9,9 +9,12 @@
 #include "bake/plan/memory.h"
 #include "bake/products/instances/instance_lamps.h"
 #include "bake/products/instances/instance_light.h"
+#include "bake/products/instances/instance_scales.h"
 #include "bake/tracers/make_tracer.h"
 #include "prt/core/error.h"
 #include "runtime/support/stopwatch.h"
+
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <map>
@@ -21,19 +24,14 @@ namespace {
 
 void check_instance_options(const BakeOptions& options, const InstanceBakeOptions& instances) {
     check_options(options);
-    if (options.tracer.method == BakeMethod::raster)
-        throw Error("--instances shared does not support --method raster; use --method trace");
-    if (options.target_error)
-        throw Error("--instances shared does not support --target-error; use --rays");
-    if (options.fit == FitMode::surface)
-        throw Error("--instances shared does not support --fit surface; use --fit vertex");
     if (instances.samples < 8 || !(instances.rays > 0 && instances.rays <= 1))
         throw Error("the number of samples per instance must be at least 8, and their share of rays in 0..1");
 }
 
-/// Returns `options` for the meshes and the scene, without a fit and without lamps.
-BakeOptions at_vertices(BakeOptions options) {
-    options.fit = FitMode::vertex;
+/// Returns `options` with a decision about the fit, and without lamps.
+BakeOptions of_sky(BakeOptions options) {
+    if (options.fit == FitMode::automatic)
+        options.fit = FitMode::vertex;
     options.lamps.mode = LampMode::none;
     return options;
 }
@@ -56,11 +54,9 @@ class InstanceBaker {
 public:
     InstanceBaker(const InstanceScene& scene, const BakeOptions& options,
                   const InstanceBakeOptions& instances)
-        : scene_(scene), with_lamps_(options), options_(at_vertices(options)), instances_(instances),
+        : scene_(scene), with_lamps_(options), options_(of_sky(options)), instances_(instances),
           traced_(trace_scene(scene.scene, choose_media(scene.scene, options_), options_)),
           plan_(plan_bake(traced_, choose_media(scene.scene, options_), options_)) {
-        if (!plan_.diffusion.empty())
-            throw Error("--instances shared does not support subsurface scattering; use --instances own");
         check_memory(plan_);
     }
 
@@ -69,10 +65,15 @@ public:
         bake_meshes(progress.range(0, 0.3));
         InstanceReceivers receivers = choose_receivers(scene_, plan_, meshes_, instances_.samples);
         const std::unique_ptr<Tracer> tracer = make_tracer(traced_, options_.tracer);
-        InstanceLight light(plan_, *tracer, meshes_, std::move(receivers), instances_);
+        const std::unique_ptr<Tracer> by_rays = // factors need the hits of rays
+            tracer->notes_hits() ? nullptr : make_tracer(traced_, {.backend = Backend::cpu});
+        InstanceLight light(plan_, {*tracer, by_rays ? *by_rays : *tracer}, meshes_, std::move(receivers),
+                            instances_);
         const bool lamps = has_lamps();
         light.trace(progress.range(0.3, lamps ? 0.5 : 0.9));
         light.bounce(progress.range(lamps ? 0.5 : 0.9, lamps ? 0.6 : 1));
+        if (options_.fit == FitMode::surface)
+            light.fit_own({{}, progress.stop});
         result_.baked.transfer = assembled(light);
         record(*tracer, light);
         result_.instances.factors = light.factors();
@@ -132,8 +133,9 @@ private:
         const auto count = static_cast<double>(scene_.meshes.size());
         for (std::size_t m = 0; m < scene_.meshes.size(); ++m) {
             meshes_.push_back(bake_shared_mesh(
-                scene_.stored, scene_.mesh_nodes[m], plan_.channels, options_,
-                progress.range(static_cast<double>(m) / count, static_cast<double>(m + 1) / count)));
+                scene_.stored,
+                {scene_.mesh_nodes[m], scale_to_bake(scene_.scene, scene_.meshes[m].placements, options_)},
+                plan_, progress.range(static_cast<double>(m) / count, static_cast<double>(m + 1) / count)));
             result_.statistics.receivers += receivers_on_surfaces(meshes_.back().receivers()).size();
             result_.statistics.rays += meshes_.back().rays;
         }
@@ -186,20 +188,24 @@ private:
         statistics.alone = light.alone();
         statistics.bounces = light.bounces();
         statistics.notices = plan_.notices;
-        double sampling = 0;
+        double sampling = light.sampling_error();
         for (const SharedMeshBake& mesh : meshes_)
             sampling = std::max(sampling, mesh.sampling_error);
+        if (options_.target_error && sampling > *options_.target_error)
+            statistics.notices.push_back(
+                fmt::format("the target error was not reached with {} rays per receiver", kMaxRays));
         const double rounding = float16_rounding_error(baked.transfer, receiver_areas(scene_.stored));
         baked.storage = storage_for(options_.memory.storage, {.rounding = rounding, .sampling = sampling},
                                     statistics.notices);
         baked.record = {.bounces = statistics.bounces,
                         .endless = options_.bounces == kEndlessBounces,
-                        .rays = options_.rays,
+                        .rays = light.rays_per_receiver(),
                         .seed = options_.seed,
                         .method = tracer.method(),
                         .backend = tracer.backend(),
                         .receivers = receivers_id(scene_.scene),
-                        .sampling_error = sampling};
+                        .sampling_error = sampling,
+                        .fitted = options_.fit == FitMode::surface};
     }
 
     const InstanceScene& scene_;

@@ -3,18 +3,14 @@
 
 #include "bake/products/instances/instance_light.h"
 
-#include "bake/pipeline/trace_gather.h"
-#include "bake/trace/sealed.h"
-#include "bake/trace/trace_receivers.h"
+#include "bake/products/instances/own_fit.h"
 #include "runtime/support/parallel.h"
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
-#include <numbers>
 
 namespace prt {
 namespace {
@@ -25,31 +21,23 @@ constexpr std::size_t kExpandedAtOnce = 8; ///< instances that are processed tog
 constexpr int kMaxEndlessBounces = 200;    ///< maximum number of endless bounces
 constexpr double kMinChange = 1e-4;        ///< relative change of light on surfaces drawn once, below which
                                            ///< endless bounces stop
-/// The purpose of kHitStride, for samples: there are many of them per factor.
-constexpr int kSampleHitStride = 8;
-constexpr int kMinSampleRays = 16;
-/// Minimum share of a sample's rays that end at backs for it to be a candidate. The rays are few; at sealed
-/// samples 98 of 100 end at backs.
-constexpr double kMinSealedBackShare = 0.5;
-constexpr float kMinExcess = 1e-6f;   ///< relative excess over incident light that is more than rounding
-constexpr int kProbesOfSamples = 128; ///< rays per sample; if a sample is sealed in, the other samples of its
-                                      ///< instance determine the factors
+constexpr float kMinExcess = 1e-6f;        ///< relative excess over incident light that is more than rounding
 
-/// Rotates a vector of one or several channels.
+} // namespace
+
 void rotate_all(const ShRotation& rotation, std::size_t count, std::span<const float> from,
                 std::span<float> to) {
     for (std::size_t first = 0; first < from.size(); first += count)
         rotation.apply(from.subspan(first, count), to.subspan(first, count));
 }
 
-} // namespace
-
-InstanceLight::InstanceLight(const BakePlan& plan, Tracer& tracer, const std::vector<SharedMeshBake>& meshes,
-                             InstanceReceivers receivers, const InstanceBakeOptions& options)
-    : plan_(plan), tracer_(tracer), meshes_(meshes), receivers_(std::move(receivers)), options_(options) {
+InstanceLight::InstanceLight(const BakePlan& plan, const InstanceTracers& tracers,
+                             const std::vector<SharedMeshBake>& meshes, InstanceReceivers receivers,
+                             const InstanceBakeOptions& options)
+    : plan_(plan), tracers_(tracers), meshes_(meshes), receivers_(std::move(receivers)), options_(options) {
     const auto count = static_cast<std::size_t>(coefficient_count(plan.options.order)),
                stride = count * static_cast<std::size_t>(plan.channels);
-    sizes_ = {count, stride, plan.bounces != 0 ? count + stride : count};
+    sizes_ = {count, stride, has_rest(plan) ? count + stride : count};
     own_.direct.resize(receivers_.own.size() * sizes_.count);
     const std::size_t samples = receivers_.sampled.size(),
                       noisy = (samples + kSamplesToOfNoise - 1) / kSamplesToOfNoise;
@@ -65,10 +53,16 @@ InstanceLight::InstanceLight(const BakePlan& plan, Tracer& tracer, const std::ve
     if (plan.bounces != 0) {
         bounce_.gather.emplace(plan.scene.surfaces(), *plan.transport,
                                receivers_.own.size() + samples + noisy, plan.channels);
+        own_.next.resize(receivers_.own.size() * sizes_.stride);
+    }
+    if (has_rest(plan)) {
         own_.indirect.resize(receivers_.own.size() * sizes_.stride);
-        own_.next.resize(own_.indirect.size());
         bounce_.exit.resize(plan.receivers().size() * sizes_.stride);
     }
+    for (const DiffusionOperator& body : plan.diffusion)
+        if (std::ranges::any_of(body.members(),
+                                [&](std::uint32_t r) { return receivers_.own_of[r] != kNoReceiver; }))
+            bounce_.media.push_back(&body);
     make_groups();
 }
 
@@ -91,143 +85,66 @@ std::size_t InstanceLight::alone() const {
     return static_cast<std::size_t>(std::ranges::count(samples_.met, 0));
 }
 
-void InstanceLight::trace(const Progress& progress) {
-    const auto own = static_cast<double>(receivers_.own.size()),
-               samples = static_cast<double>(receivers_.sampled.size()) * options_.rays;
-    const double share = own / std::max(1.0, own + samples);
-    trace_own(progress.range(0, share));
-    trace_samples(progress.range(share, 1));
-    find_sealed_in(progress);
+/// Converts light that arrives at surfaces drawn once to light that leaves them.
+void InstanceLight::leave_own() {
+    bounce_.refill.apply(std::span(bounce_.exit), sizes_.stride);
+    for (const DiffusionOperator* const body : bounce_.media)
+        body->apply(plan_.channels, plan_.options.order, bounce_.exit, plan_.options.threads);
 }
 
-void InstanceLight::trace_own(const Progress& progress) {
-    TraceOptions options = gather_options(plan_, static_cast<std::uint32_t>(plan_.options.rays));
-    if (!bounce_.gather)
-        options.hit_stride = 1;
-    const auto take = [&](std::uint32_t r, std::span<const float> vector) {
-        std::ranges::copy(vector, &own_.direct[receivers_.own_of[r] * sizes_.count]);
-    };
-    ReceiverSink sink;
-    if (bounce_.gather)
-        sink = [&](std::uint32_t r, std::span<const Hit> hits) {
-            bounce_.gather->set_row(receivers_.own_of[r], hits, options.rays);
-        };
-    trace_receivers(tracer_, plan_.receivers(), receivers_.own, options, take, progress, sink);
-    result_.rays += receivers_.own.size() * static_cast<std::size_t>(options.rays);
-}
-
-/// Traces all samples, and some of them twice to estimate the noise. Two halves of the same rays do not
-/// suffice: a half is less evenly distributed, and its noise is more than 50 % larger.
-void InstanceLight::trace_samples(const Progress& progress) {
-    std::vector<std::uint32_t> noisy;
-    for (std::size_t s = 0; s < receivers_.sampled.size(); s += kSamplesToOfNoise)
-        noisy.push_back(receivers_.sampled[s]);
-    const int rays =
-        std::max(kMinSampleRays, static_cast<int>(std::lround(options_.rays * plan_.options.rays)));
-    constexpr double kOnce = static_cast<double>(kSamplesToOfNoise) / (kSamplesToOfNoise + 1);
-    trace_samples(receivers_.sampled, rays, false, progress.range(0, kOnce));
-    trace_samples(noisy, rays, true, progress.range(kOnce, 1));
-}
-
-void InstanceLight::trace_samples(std::span<const std::uint32_t> receivers, int rays, bool again,
-                                  const Progress& progress) {
-    // Instances without neighbours need every ray; light from surfaces needs fewer.
-    const TraceOptions options{.order = plan_.options.order,
-                               .rays = rays,
-                               .seed = plan_.options.seed + (again ? 2 : 1),
-                               .hit_stride = bounce_.gather ? kSampleHitStride : 1};
-    const Surfaces& surfaces = plan_.scene.surfaces();
-    const auto take = [&](std::uint32_t r, std::span<const float> vector) {
-        take_light(receivers_.sample_of[r], again, vector, 0);
-    };
-    const auto sink = [&](std::uint32_t r, std::span<const Hit> hits) {
-        const std::size_t sample = receivers_.sample_of[r], i = receivers_.instance_of_sample(sample);
-        if (bounce_.gather)
-            bounce_.gather->set_row(
-                receivers_.own.size() +
-                    (again ? receivers_.sampled.size() + sample / kSamplesToOfNoise : sample),
-                hits, rays);
-        const bool met = std::ranges::any_of(hits, [&](const Hit& hit) {
-            return surfaces.scene().primitives[surfaces.primitive(hit.triangle)].node !=
-                   receivers_.instances[i].node;
-        });
-        if (!again)
-            samples_.may_be_sealed[sample] = backs_of(surfaces, hits) >= kMinSealedBackShare * rays;
-        if (met)
-            std::atomic_ref(samples_.met[i]).store(1, std::memory_order_relaxed);
-    };
-    trace_receivers(tracer_, plan_.receivers(), receivers, options, take, progress, sink);
-    result_.rays += receivers.size() * static_cast<std::size_t>(rays);
-}
-
-/// Takes light of a sample, rotated into the frame of its mesh, from coefficient `first` of its vector on.
-void InstanceLight::take_light(std::size_t sample, bool again, std::span<const float> light,
-                               std::size_t first) {
-    std::array<float, 3 * kMaxOrder * kMaxOrder> space;
-    const std::span<float> rotated(space.data(), light.size());
-    rotate_all(samples_.into_mesh[receivers_.instance_of_sample(sample)], sizes_.count, light, rotated);
-    float* const before = &samples_.light[sample * sizes_.dimension + first];
-    if (!again) {
-        std::ranges::copy(rotated, before);
-        return;
-    }
-    float* const differences = &samples_.differences[sample / kSamplesToOfNoise * sizes_.dimension + first];
-    for (std::size_t i = 0; i < rotated.size(); ++i)
-        differences[i] = std::numbers::sqrt2_v<float> / 2 * (before[i] - rotated[i]);
-}
-
-void InstanceLight::find_sealed_in(const Progress& progress) {
-    const auto sealed_of = [&](std::vector<std::uint32_t> dark, int probes) {
-        if (dark.empty())
-            return std::vector<bool>();
-        Sealed sealed = find_sealed(tracer_, plan_.scene, plan_.receivers(), std::move(dark),
-                                    plan_.options.seed, progress.stop, probes);
-        result_.rays += sealed.rays;
-        return std::move(sealed.receivers);
-    };
-    std::vector<std::uint32_t> dark;
-    for (std::size_t s = 0; s < receivers_.sampled.size(); ++s)
-        if (samples_.light[s * sizes_.dimension] <= 0 && samples_.may_be_sealed[s])
-            dark.push_back(receivers_.sampled[s]);
-    if (const std::vector<bool> sealed = sealed_of(std::move(dark), kProbesOfSamples); !sealed.empty())
-        for (std::size_t s = 0; s < receivers_.sampled.size(); ++s)
-            samples_.left_out[s] = sealed[receivers_.sampled[s]];
-    dark.clear();
+/// Computes the light of surfaces drawn once without bounces: the only light is direct light.
+void InstanceLight::begin_bounces() {
     for (std::size_t o = 0; o < receivers_.own.size(); ++o)
-        if (own_.direct[o * sizes_.count] <= 0)
-            dark.push_back(receivers_.own[o]);
-    const std::vector<bool> sealed = sealed_of(std::move(dark), kMaxProbes);
-    if (std::ranges::find(sealed, true) != sealed.end() && plan_.options.repairs.inside == Inside::refill)
-        bounce_.refill =
-            Refill(MeshNeighbours(plan_.scene.surfaces(), plan_.receivers(), plan_.transport->fronts, sealed),
-                   sealed);
+        for (std::size_t i = 0; i < sizes_.stride; ++i)
+            exit_of(receivers_.own[o])[i] = own_.direct[o * sizes_.count + i % sizes_.count];
+    leave_own();
+    std::vector<bool> in_medium(plan_.receivers().size());
+    for (const DiffusionOperator* const body : bounce_.media)
+        for (const std::uint32_t r : body->members())
+            in_medium[r] = true;
+    if (!bounce_.media.empty())
+        own_.scattered.resize(receivers_.own.size() * sizes_.stride);
+    for (std::size_t o = 0; o < receivers_.own.size(); ++o) {
+        const std::span<const float> exit = exit_of(receivers_.own[o]);
+        const std::span<float> direct = std::span(own_.direct).subspan(o * sizes_.count, sizes_.count);
+        if (in_medium[receivers_.own[o]]) { // all of its light passes the medium
+            std::ranges::copy(exit, &own_.scattered[o * sizes_.stride]);
+            std::ranges::fill(direct, 0.0f);
+        } else {
+            std::ranges::copy(exit.first(sizes_.count), direct.begin());
+        }
+    }
+    own_.indirect = own_.scattered;
+    own_.indirect.resize(receivers_.own.size() * sizes_.stride);
+}
+
+/// Fills surfaces drawn once that are inside geometry, if no light bounces.
+void InstanceLight::refill_direct() {
+    if (bounce_.refill.empty())
+        return;
+    std::vector<float> all(plan_.receivers().size() * sizes_.count);
+    for (std::size_t o = 0; o < receivers_.own.size(); ++o)
+        std::copy_n(&own_.direct[o * sizes_.count], sizes_.count, &all[receivers_.own[o] * sizes_.count]);
+    bounce_.refill.apply(std::span(all), sizes_.count);
+    for (std::size_t o = 0; o < receivers_.own.size(); ++o)
+        std::copy_n(&all[receivers_.own[o] * sizes_.count], sizes_.count, &own_.direct[o * sizes_.count]);
 }
 
 void InstanceLight::bounce(const Progress& progress) {
+    if (has_rest(plan_))
+        begin_bounces();
+    else
+        refill_direct();
     if (!bounce_.gather) {
-        if (!bounce_.refill.empty()) {
-            std::vector<float> all(plan_.receivers().size() * sizes_.count);
-            for (std::size_t o = 0; o < receivers_.own.size(); ++o)
-                std::copy_n(&own_.direct[o * sizes_.count], sizes_.count,
-                            &all[receivers_.own[o] * sizes_.count]);
-            bounce_.refill.apply(std::span(all), sizes_.count);
-            for (std::size_t o = 0; o < receivers_.own.size(); ++o)
-                std::copy_n(&all[receivers_.own[o] * sizes_.count], sizes_.count,
-                            &own_.direct[o * sizes_.count]);
-        }
         fit(0, false);
         return;
     }
-    for (std::size_t o = 0; o < receivers_.own.size(); ++o) // the only light is direct light
-        for (std::size_t i = 0; i < sizes_.stride; ++i)
-            exit_of(receivers_.own[o])[i] = own_.direct[o * sizes_.count + i % sizes_.count];
-    bounce_.refill.apply(std::span(bounce_.exit), sizes_.stride);
-    for (std::size_t o = 0; o < receivers_.own.size(); ++o)
-        std::copy_n(exit_of(receivers_.own[o]).begin(), sizes_.count, &own_.direct[o * sizes_.count]);
     fit(0, true);
     const bool endless = plan_.bounces == kEndlessBounces;
     const int most = endless ? kMaxEndlessBounces : plan_.bounces;
     while (result_.bounces < most) {
+        if (plan_.options.fit == FitMode::surface)
+            bounce_.last = bounce_.exit;
         gather_light();
         ++result_.bounces;
         const double change = take_own();
@@ -236,6 +153,22 @@ void InstanceLight::bounce(const Progress& progress) {
         if (last)
             break;
         progress.update(static_cast<double>(result_.bounces) / most);
+    }
+}
+
+void InstanceLight::fit_own(const Progress& progress) {
+    if (receivers_.own.empty())
+        return;
+    const OwnFit fit(plan_, tracers_.own, receivers_, progress);
+    const FittedTransfer light = fit.light(std::move(bounce_.last), bounce_.media, {{}, progress.stop});
+    result_.rays += fit.rays();
+    result_.sampling_error = fit.sampling_error();
+    for (std::size_t o = 0; o < receivers_.own.size(); ++o) {
+        const std::span<const float> direct = light.direct.vector(receivers_.own[o]),
+                                     all = light.all.vector(receivers_.own[o]);
+        std::ranges::copy(direct, &own_.direct[o * sizes_.count]);
+        for (std::size_t i = 0; i < own_.indirect.size() / receivers_.own.size(); ++i)
+            own_.indirect[o * sizes_.stride + i] = all[i] - direct[i % sizes_.count];
     }
 }
 
@@ -275,12 +208,14 @@ void InstanceLight::gather_rows(std::size_t first, std::size_t rows, const Take&
 double InstanceLight::take_own() {
     for (std::size_t o = 0; o < receivers_.own.size(); ++o)
         std::copy_n(&own_.next[o * sizes_.stride], sizes_.stride, exit_of(receivers_.own[o]).begin());
-    bounce_.refill.apply(std::span(bounce_.exit), sizes_.stride);
+    leave_own();
     double changed = 0, all = 1e-30;
     for (std::size_t o = 0; o < receivers_.own.size(); ++o)
         for (std::size_t i = 0; i < sizes_.stride; ++i) {
             float& now = exit_of(receivers_.own[o])[i];
             float& before = own_.indirect[o * sizes_.stride + i];
+            if (!own_.scattered.empty())
+                now += own_.scattered[o * sizes_.stride + i];
             changed += std::pow(static_cast<double>(now - before), 2);
             before = now;
             now += own_.direct[o * sizes_.count + i % sizes_.count];
@@ -295,11 +230,17 @@ void InstanceLight::fit(std::size_t step, bool gives) {
     std::vector<UniformBound> bounds; // [groups]
     bounds.reserve(groups_.size());
     for (const Group& group : groups_) {
-        const SharedTransfer shared(meshes_[group.mesh].after[step], group.up, plan_.options.threads);
-        const InstanceFit fit(shared, receivers_.samples[group.mesh], group.up);
+        const SharedMeshBake& mesh = meshes_[group.mesh];
+        const Transfer &exit = gives ? mesh.after[step] : mesh.stored(), &arrives = mesh.at_samples(step);
+        const SharedTransfer shared(exit, group.up, plan_.options.threads);
+        std::optional<SharedTransfer> arriving;
+        if (&arrives != &exit)
+            arriving.emplace(arrives, group.up, plan_.options.threads);
+        const SharedTransfer& at_samples = arriving ? *arriving : shared;
+        const InstanceFit fit(at_samples, receivers_.samples[group.mesh], group.up);
         std::vector<glm::vec3> positions;
         for (std::size_t r = 0; r < shared.receivers(); ++r)
-            positions.push_back(meshes_[group.mesh].position_of(r));
+            positions.push_back(mesh.position_of(r));
         UniformBound& bound = bounds.emplace_back(shared, positions);
         parallel_for(group.instances.size(), kExpandedAtOnce, plan_.options.threads,
                      [&](std::size_t begin, std::size_t end) {
@@ -308,7 +249,7 @@ void InstanceLight::fit(std::size_t step, bool gives) {
                              if (samples_.met[i]) {
                                  fit_one(fit, bound, i);
                                  if (!gives)
-                                     result_.errors[i] = error_of(fit, shared, i);
+                                     result_.errors[i] = error_of(fit, at_samples, i);
                              }
                          for (std::size_t first = 0; gives && first < some.size(); first += kExpandedAtOnce)
                              expand(shared, positions,
@@ -426,14 +367,15 @@ void InstanceLight::expand(const SharedTransfer& shared, std::span<const glm::ve
 Transfer InstanceLight::own_fronts(int direct_channels) const {
     const std::size_t all = plan_.receivers().size();
     TransferLayout layout = layout_of_one(plan_.options.order, 1, TermKind::direct);
-    if (bounce_.gather)
+    const bool rest = has_rest(plan_);
+    if (rest)
         layout.terms.push_back({TermKind::indirect, plan_.channels});
     const bool transmits = plan_.scene.surfaces().traits().transmission;
     Transfer own = zero_transfer(layout, transmits ? all : receivers_.own.size());
     for (std::size_t o = 0; o < receivers_.own.size(); ++o) {
         const std::span<float> to = own.vector(transmits ? receivers_.own[o] : o);
         std::copy_n(&own_.direct[o * sizes_.count], sizes_.count, to.begin());
-        if (bounce_.gather)
+        if (rest)
             std::copy_n(&own_.indirect[o * sizes_.stride], sizes_.stride,
                         to.begin() + static_cast<std::ptrdiff_t>(sizes_.count));
     }

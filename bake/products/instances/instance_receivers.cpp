@@ -15,7 +15,7 @@ InstanceSamples choose_samples(const SharedMeshBake& mesh, int most) {
     std::vector<std::uint32_t> lit; // sealed receivers provide no information
     double area = 0;
     for (const std::uint32_t r : receivers_on_surfaces(receivers))
-        if (mesh.after.front().vector(r)[0] > 0) {
+        if (mesh.at_samples(0).vector(r)[0] > 0) {
             lit.push_back(r);
             area += static_cast<double>(receivers.areas[r]);
         }

@@ -5,6 +5,7 @@
 #include "bake/pipeline/direct_transfer.h"
 #include "bake/pipeline/light_transport.h"
 #include "bake/plan/transfer_terms.h"
+#include "bake/products/instances/own_fit.h"
 #include "bake/tracers/make_tracer.h"
 #include "prt/core/sh_basis.h"
 
@@ -52,53 +53,145 @@ Transfer optional_work(const Transfer& direct, const Transfer& all) {
     return both;
 }
 
-} // namespace
-
-glm::vec3 SharedMeshBake::position_of(std::size_t receiver) const {
-    return box.position_of(glm::vec3(scene->world(receivers().positions[receiver])));
+/// Options for a mesh, at its vertices. Media have lengths in metres.
+BakeOptions options_of_mesh(const BakePlan& whole, double scale) {
+    BakeOptions options = whole.options;
+    options.bounces = whole.bounces;
+    options.fit = FitMode::vertex;
+    options.subsurface.metres_per_unit *= scale;
+    return options;
 }
 
-SharedMeshBake bake_shared_mesh(const Scene& stored, int node, int channels, const BakeOptions& options,
-                                const Progress& progress) {
+SharedMeshBake planned(const Scene& stored, const MeshToBake& to_bake, const BakePlan& whole) {
     SharedMeshBake mesh;
-    mesh.scene = std::make_unique<const Scene>(scene_of(stored, node));
-    const Media media = choose_media(*mesh.scene, options);
+    mesh.scene = std::make_unique<const Scene>(scene_of(stored, to_bake.node));
+    mesh.options = std::make_unique<const BakeOptions>(options_of_mesh(whole, to_bake.scale));
+    const Media media = choose_media(*mesh.scene, *mesh.options);
+    std::vector<bool> solid;
+    for (const auto& medium : media)
+        solid.push_back(medium.has_value());
     mesh.traced = std::make_unique<const TraceScene>(
-        *mesh.scene, load_textures(*mesh.scene, options.repairs.bad_textures, TextureNeeds::all),
-        TraceSceneOptions{.solid = {}, .threads = options.threads});
-    mesh.plan = std::make_unique<const BakePlan>(plan_bake(*mesh.traced, media, options));
+        *mesh.scene, load_textures(*mesh.scene, mesh.options->repairs.bad_textures, TextureNeeds::all),
+        TraceSceneOptions{.solid = std::move(solid), .threads = mesh.options->threads});
+    mesh.plan = std::make_unique<const BakePlan>(plan_bake(*mesh.traced, media, *mesh.options));
     std::vector<glm::vec3> positions;
     for (const VertexArray& vertices : mesh.scene->vertex_arrays)
         for (const glm::vec3& position : vertices.positions)
             positions.emplace_back(mesh.scene->world(position));
     mesh.box = bounding_box(positions);
+    return mesh;
+}
 
+/// The mesh's light transport.
+struct MeshOperators {
+    const BakePlan& plan;
+    const Measured& measured;
+
+    TransportOperators operators() const {
+        return {.refill = measured.sealed.refill,
+                .diffusion = plan.diffusion,
+                .gather = measured.direct.gather ? &*measured.direct.gather : nullptr};
+    }
+    /// Direct light that arrives at all receivers.
+    Transfer incident() const {
+        Transfer light = measured.direct.transfer;
+        light.layout.terms.front().kind = TermKind::direct;
+        return plan.channels == 3 ? in_color(light) : light;
+    }
+    Transfer exit(int bounces, const Progress& progress) const {
+        return propagate(incident(), operators(), bounces, plan.options.threads, progress).transfer;
+    }
+    /// Light that arrives from surfaces with `exit` transfer, and direct light.
+    Transfer arriving(Transfer exit) const {
+        Transfer light = incident();
+        if (measured.direct.gather) {
+            const int order = plan.options.order, threads = plan.options.threads;
+            std::vector<float> bounced(light.vectors.size());
+            measured.direct.gather->reflect(order, exit.vectors, threads);
+            measured.direct.gather->apply(order, exit.vectors, 0, bounced, threads);
+            for (std::size_t i = 0; i < bounced.size(); ++i)
+                light.vectors[i] += bounced[i];
+        }
+        measured.sealed.refill.apply(std::span(light.vectors), light.dimension());
+        return light;
+    }
+};
+
+/// Adds transfer after `bounces` bounces to `mesh`. `direct`: exit transfer without a bounce.
+void add_step(const MeshOperators& mesh, const Transfer& direct, int channels, int bounces,
+              const Progress& progress, SharedMeshBake& to) {
+    const auto wide = [&](Transfer light) {
+        return channels == 3 && light.layout.channels() == 1 ? in_color(light) : light;
+    };
+    Transfer exit = mesh.exit(bounces, progress);
+    to.after.push_back(optional_work(direct, wide(exit)));
+    if (mesh.plan.diffusion.empty())
+        return;
+    Transfer incident = mesh.measured.direct.transfer, all = mesh.incident();
+    mesh.measured.sealed.refill.apply(std::span(incident.vectors), incident.dimension());
+    if (bounces == 0)
+        mesh.measured.sealed.refill.apply(std::span(all.vectors), all.dimension());
+    else
+        all = mesh.arriving(bounces == kEndlessBounces ? std::move(exit) : mesh.exit(bounces - 1, progress));
+    const Transfer arriving = optional_work(incident, wide(std::move(all)));
+    to.arriving.push_back(to.after.back());
+    for (const DiffusionOperator& body : mesh.plan.diffusion)
+        for (const std::uint32_t r : body.members())
+            std::ranges::copy(arriving.vector(r), to.arriving.back().vector(r).begin());
+}
+
+/// Fits light to samples between the vertices, for the written transfer.
+void fit_surface(const BakePlan& whole, Tracer& tracer, const Progress& progress, SharedMeshBake& mesh) {
+    BakeOptions options = *mesh.options;
+    options.fit = FitMode::surface;
+    const BakePlan plan = plan_bake(*mesh.traced, choose_media(*mesh.scene, options), options);
+    BakeStatistics asked;
+    const Measured measured = measure(plan, tracer, LastOfLamps::as_others, asked, progress);
+    FittedTransfer light = fitted_transfer(plan, measured, {{}, progress.stop});
+    if (whole.channels == 3 && light.all.layout.channels() == 1)
+        light.all = in_color(light.all);
+    mesh.fitted = has_rest(whole) ? optional_work(light.direct, light.all) : std::move(light.direct);
+    mesh.rays += asked.rays + measured.direct.rays + measured.sealed.rays;
+    mesh.sampling_error = measured.direct.sampling_error;
+}
+
+} // namespace
+
+bool has_rest(const BakePlan& plan) {
+    return plan.bounces != 0 || !plan.diffusion.empty();
+}
+
+glm::vec3 SharedMeshBake::position_of(std::size_t receiver) const {
+    return box.position_of(glm::vec3(scene->world(receivers().positions[receiver])));
+}
+
+SharedMeshBake bake_shared_mesh(const Scene& stored, const MeshToBake& to_bake, const BakePlan& whole,
+                                const Progress& progress) {
+    SharedMeshBake mesh = planned(stored, to_bake, whole);
+    const BakeOptions& options = *mesh.options;
     const std::unique_ptr<Tracer> tracer = make_tracer(*mesh.traced, options.tracer);
     BakeStatistics asked;
     Measured measured = measure(*mesh.plan, *tracer, LastOfLamps::as_others, asked, progress);
     mesh.rays = measured.direct.rays + measured.sealed.rays;
+    mesh.mean_rays = measured.direct.mean_rays;
     mesh.sampling_error = measured.direct.sampling_error;
+    const MeshOperators operators{*mesh.plan, measured};
     const Transfer direct =
         exit_without_bounces(*mesh.plan, measured.direct.transfer, measured.sealed.refill);
-    if (options.bounces == 0) {
+    if (!has_rest(whole)) {
         mesh.after.push_back(direct);
-        return mesh;
+    } else {
+        const bool endless = options.bounces == kEndlessBounces;
+        const int steps = endless ? 2 : options.bounces + 1;
+        for (int step = 0; step < steps; ++step)
+            add_step(operators, direct, whole.channels, endless && step > 0 ? kEndlessBounces : step,
+                     {{}, progress.stop}, mesh);
     }
-    const TransportOperators operators{.refill = measured.sealed.refill,
-                                       .diffusion = {},
-                                       .gather = measured.direct.gather ? &*measured.direct.gather : nullptr};
-    const std::vector<int> wanted =
-        options.bounces == kEndlessBounces ? std::vector<int>{0, kEndlessBounces} : std::vector<int>{};
-    const int steps = wanted.empty() ? options.bounces + 1 : 2;
-    for (int step = 0; step < steps; ++step) {
-        const int bounces = wanted.empty() ? step : wanted[static_cast<std::size_t>(step)];
-        Transfer light = mesh.plan->channels == 3 ? in_color(direct) : direct;
-        Transfer all =
-            propagate(std::move(light), operators, bounces, options.threads, {{}, progress.stop}).transfer;
-        if (channels == 3 && all.layout.channels() == 1)
-            all = in_color(all);
-        mesh.after.push_back(optional_work(direct, all));
-    }
+    for (std::vector<Transfer>* const transfer : {&mesh.after, &mesh.arriving})
+        for (Transfer& light : *transfer)
+            measured.shared->average(light);
+    if (whole.options.fit == FitMode::surface)
+        fit_surface(whole, *tracer, {{}, progress.stop}, mesh);
     return mesh;
 }
 
@@ -129,7 +222,7 @@ Transfer of_fronts(const BakePlan& plan, const Transfer& both_sides, int direct_
 }
 
 Transfer stored_transfer(const SharedMeshBake& mesh, int direct_channels) {
-    return of_fronts(*mesh.plan, mesh.after.back(), direct_channels);
+    return of_fronts(*mesh.plan, mesh.stored(), direct_channels);
 }
 
 } // namespace prt

@@ -74,10 +74,22 @@ struct InstanceBake {
     InstanceStatistics statistics;
 };
 
-/// Bakes `scene` with shared transfer, at vertices, without the noise filter. Throws the errors of `bake`,
-/// and `Error` for features that shared transfer does not support (media, depth maps, target errors
-/// and FitMode::surface), for `samples` or `rays` of `instances` outside their range, and for an instance
-/// that does not have the vertices of its mesh. Lamps are baked at all vertices of `scene`.
+/// Largest ratio of the scales of instances that share the transfer of a mesh with a medium, because lengths
+/// of the medium are metres. The mesh is baked at the mean of the scales.
+inline constexpr double kMaxScaleRatio = 1.01;
+
+/// Removes placements of meshes that contain a medium, unless their scales are those of the largest group
+/// with ratios of at most kMaxScaleRatio; then meshes with less than two placements. `scene` is the flat
+/// scene. Returns the number of removed placements. Throws `Error` for media that `bake` does not accept.
+std::size_t keep_one_scale(SharedMeshes& meshes, const Scene& scene, const BakeOptions& options);
+
+/// Bakes `scene` with shared transfer, without the noise filter. FitMode::automatic acts as FitMode::vertex.
+/// With FitMode::surface, the written transfer is fitted to the surfaces; factors are fitted to light at
+/// vertices. Lamps are baked at all vertices of `scene`, with the noise filter. Throws the errors of `bake`, and
+/// `Error` for `samples` or `rays` of `instances` outside their range, and for an instance that does not have the
+/// vertices of its mesh. BakeOptions::target_error is the error of each mesh alone and of all surfaces that are
+/// drawn once; the share of samples is one of the mean number of rays. With BakeMethod::raster, rays on the CPU
+/// trace the samples. Instances of a mesh that contains a medium must have the same scale (`keep_one_scale`).
 InstanceBake bake_instances(const InstanceScene& scene, const BakeOptions& options,
                             const InstanceBakeOptions& instances = {}, const Progress& progress = {});
 
