@@ -133,13 +133,14 @@ void add_compressed(const CompressedTransfer& compressed, Report& report) {
 }
 
 void add_instances(const InstancedModel& file, Report& report) {
+    const std::size_t lamps = file.instances.empty() ? 0 : file.instances.front().placed.lamps.size(),
+                      bytes = kInstanceNumbers + lamps * kLampLightBytes;
     Json figures = {{"count", file.instances.size()},
                     {"vertices_stored", file.stored.receivers()},
-                    {"bytes_per_instance", kInstanceNumbers}};
-    report.sentences.emplace_back(
-        "{instances/count} instances share the transfer of their meshes, by "
-        "{instances/bytes_per_instance} bytes of factors each; {instances/vertices_stored} "
-        "vertices have transfer");
+                    {"bytes_per_instance", bytes}};
+    report.sentences.emplace_back("{instances/count} instances share the transfer of their meshes, by "
+                                  "{instances/bytes_per_instance} bytes each; {instances/vertices_stored} "
+                                  "vertices have transfer");
     if (file.compressed) {
         add_instance_constants(relit_instances(file), std::move(figures), report);
         return;

@@ -40,6 +40,14 @@ bool pays(const InstanceArguments& arguments, const SharedMeshes& meshes, const 
     return all >= 4 * traced;
 }
 
+/// Returns the larger of the errors under skies and under lamps, [instances].
+std::vector<double> worst_errors(const InstanceBake& bake) {
+    std::vector<double> errors = bake.errors;
+    for (std::size_t i = 0; i < bake.lamp_errors.size(); ++i)
+        errors[i] = std::max(errors[i], bake.lamp_errors[i]);
+    return errors;
+}
+
 /// Removes placements with an error above `most`, and meshes with at most one remaining placement.
 SharedMeshes without_bad_ones(const SharedMeshes& meshes, const std::vector<double>& errors, double most) {
     SharedMeshes kept = meshes;
@@ -167,9 +175,10 @@ InstancedBake bake_shared(const InstanceArguments& arguments, const FlatScene& f
         begin = 0.5 + begin / 2;
         result.seconds += result.bake.statistics.seconds;
         result.rays += result.bake.statistics.rays;
+        const std::vector<double> errors = worst_errors(result.bake);
         if (result.first_errors.empty())
-            result.first_errors = result.bake.errors;
-        SharedMeshes kept = without_bad_ones(meshes, result.bake.errors, limit);
+            result.first_errors = errors;
+        SharedMeshes kept = without_bad_ones(meshes, errors, limit);
         good = kept.placements() == meshes.placements();
         meshes = std::move(kept);
         result.baked_alone = all - meshes.placements();

@@ -5,16 +5,11 @@
 #include "prt/load/model.h"
 #include "runtime/load/gltf_data.h"
 
-#include <cstddef>
 #include <vector>
 
 namespace prt {
 
 inline constexpr int kInstancesVersion = 3, kMaxSharedInstances = 1'000'000;
-
-/// Size of the light of a lamp at an instance in files, in bytes: the scale as float32, then the numbers.
-inline constexpr std::size_t kLampLightBytes = sizeof(float) + kInstanceLampNumbers;
-static_assert(kLampLightBytes % sizeof(float) == 0);
 
 /// Reads PRTKIT_instances. Throws `Error` if it is missing, damaged or of another version.
 StoredInstances read_stored_instances(const GltfData& data);

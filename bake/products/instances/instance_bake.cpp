@@ -65,10 +65,7 @@ public:
         bake_meshes(progress.range(0, 0.3));
         InstanceReceivers receivers = choose_receivers(scene_, plan_, meshes_, instances_.samples);
         const std::unique_ptr<Tracer> tracer = make_tracer(traced_, options_.tracer);
-        const std::unique_ptr<Tracer> by_rays = // factors need the hits of rays
-            tracer->notes_hits() ? nullptr : make_tracer(traced_, {.backend = Backend::cpu});
-        InstanceLight light(plan_, {*tracer, by_rays ? *by_rays : *tracer}, meshes_, std::move(receivers),
-                            instances_);
+        InstanceLight light(plan_, {*tracer, tracer->rays()}, meshes_, std::move(receivers), instances_);
         const bool lamps = has_lamps();
         light.trace(progress.range(0.3, lamps ? 0.5 : 0.9));
         light.bounce(progress.range(lamps ? 0.5 : 0.9, lamps ? 0.6 : 1));
@@ -118,8 +115,6 @@ private:
                                       .begin());
         }
         transfer = std::move(all);
-        for (std::size_t i = 0; i < lamps.errors.size(); ++i)
-            result_.errors[i] = std::max(result_.errors[i], lamps.errors[i]);
         result_.lamp_errors = std::move(lamps.errors);
         result_.instances.lamps = std::move(lamps.lights);
         const BakeStatistics& statistics = lamps.flat->statistics;

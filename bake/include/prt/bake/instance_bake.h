@@ -64,8 +64,7 @@ struct InstanceBake {
     StoredInstances instances; ///< factors of the instances, and boxes of the meshes
     /// [instances] relative L2 error of exit radiance at the samples of the instance, without the noise of
     /// their rays. The value is the maximum of the error over the five soft skies together, and of the errors
-    /// under each of InstanceBakeOptions::lights, and of `lamp_errors`. 0 for an instance whose rays hit
-    /// nothing except itself and that no lamp lights.
+    /// under each of InstanceBakeOptions::lights. 0 for an instance whose rays hit nothing except itself.
     std::vector<double> errors;
     /// [instances] relative L2 error of exit radiance at the vertices of the instance, of all lamps of the
     /// scene together; empty without lamps.
@@ -85,11 +84,12 @@ std::size_t keep_one_scale(SharedMeshes& meshes, const Scene& scene, const BakeO
 
 /// Bakes `scene` with shared transfer, without the noise filter. FitMode::automatic acts as FitMode::vertex.
 /// With FitMode::surface, the written transfer is fitted to the surfaces; factors are fitted to light at
-/// vertices. Lamps are baked at all vertices of `scene`, with the noise filter. Throws the errors of `bake`, and
-/// `Error` for `samples` or `rays` of `instances` outside their range, and for an instance that does not have the
-/// vertices of its mesh. BakeOptions::target_error is the error of each mesh alone and of all surfaces that are
-/// drawn once; the share of samples is one of the mean number of rays. With BakeMethod::raster, rays on the CPU
-/// trace the samples. Instances of a mesh that contains a medium must have the same scale (`keep_one_scale`).
+/// vertices. Lamps are baked at all vertices of `scene`, with the noise filter. Throws the errors of `bake`,
+/// and `Error` for `samples` or `rays` of `instances` outside their range, and for an instance that does not
+/// have the vertices of its mesh. BakeOptions::target_error is the error of each mesh alone and of all
+/// surfaces that are drawn once; the share of samples is one of the mean number of rays. With
+/// BakeMethod::raster, rays trace the samples. Instances of a mesh that contains a medium must
+/// have the same scale (`keep_one_scale`).
 InstanceBake bake_instances(const InstanceScene& scene, const BakeOptions& options,
                             const InstanceBakeOptions& instances = {}, const Progress& progress = {});
 

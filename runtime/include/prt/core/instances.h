@@ -68,11 +68,14 @@ struct InstanceFactors {
     friend bool operator==(const InstanceFactors&, const InstanceFactors&) = default;
 };
 
-/// Number of SH functions of the light of a lamp at an instance: those of five bands, which contain 99.8 % of the
-/// energy of the clamped cosine; its sixth band is zero (Ramamoorthi and Hanrahan 2001, eq. 8).
+/// Number of SH functions of the light of a lamp at an instance: those of five bands, which contain 99.8 % of
+/// the energy of the clamped cosine; its sixth band is zero (Ramamoorthi and Hanrahan 2001, eq. 8).
 inline constexpr std::size_t kInstanceLampFunctions = 25;
 /// Number of floats in `InstanceLampLight`.
 inline constexpr std::size_t kInstanceLampNumbers = kInstanceLampFunctions * 3 * 4;
+
+/// Size of the light of a lamp at an instance in files, in bytes: a float32 scale, then one byte per number.
+inline constexpr std::size_t kLampLightBytes = sizeof(float) + kInstanceLampNumbers;
 
 /// Incident light of a lamp at an instance, with all bounces in the surroundings, for the lamp's strength in
 /// the scene. At the relative position u in the box of the mesh (`InstanceBox::position_of`), the radiance of
