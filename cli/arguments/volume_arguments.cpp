@@ -26,18 +26,19 @@ VolumeArguments::WorldBounds parse_bounds(const std::string& text) {
     return b;
 }
 
+void check_one(bool other) {
+    if (other)
+        throw CLI::ValidationError("--volume", "METRES and probes cannot be combined");
+}
+
 } // namespace
 
 void add_volume(CLI::App* command, VolumeArguments& arguments) {
     VolumeOptions& volume = arguments.volume;
-    const auto check_one = [](bool other) {
-        if (other)
-            throw CLI::ValidationError("--volume", "METRES and probes cannot be combined");
-    };
     arguments.option =
         Suboptions(
             "--volume", "METRES", "also bake probes at this distance, for moving objects; default: none",
-            [&volume, check_one](const std::string& text) {
+            [&volume](const std::string& text) {
                 const std::optional<double> metres = real_number(text);
                 if (!metres || !(*metres >= 1e-9 && *metres <= static_cast<double>(kFarthestVertex)))
                     throw CLI::ValidationError("--volume", "'" + text + "' is not a distance in metres");
@@ -48,7 +49,7 @@ void add_volume(CLI::App* command, VolumeArguments& arguments) {
                     "with --high-poly, probes receive the light of that model")
             .whole_number("probes", 125, 1 << 28,
                           "instead of METRES, as --volume probes=4000: at most N probes, 125 to 2^28",
-                          [&volume, check_one](int count) {
+                          [&volume](int count) {
                               check_one(volume.spacing > 0);
                               volume.probes = static_cast<std::size_t>(count);
                           })

@@ -63,8 +63,13 @@ TEST(RasterBake, BouncesTheLightOfDepthMapsByRays) {
 TEST(RasterBake, ReachesATargetErrorWithDirections) {
     const Scene scene = balls_over_floor();
     const std::vector<float> areas = receiver_areas(scene);
+<<<<<<< ours
     const Transfer reference = transfer(scene, by_maps(1 << 14));
     for (const double target : {0.1, 0.03}) {
+=======
+    const Transfer reference = transfer(scene, by_maps(1 << 13));
+    for (const double target : {0.05, 0.02}) {
+>>>>>>> theirs
         BakeOptions options = by_maps(1);
         options.target_error = target;
         const BakeResult result = bake(scene, options);
