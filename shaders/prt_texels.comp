@@ -1,5 +1,5 @@
 // Computes the texels of a lightmap, or the light of the probes of a volume for prt_volume.glsl (docs/format.md,
-// PRTKIT_lightmap and PRTKIT_transfer_volume), like prt::TextureRelighter::update: one texel per thread.
+// texels and probes of PRTKIT_transfer), like prt::TextureRelighter::update: one texel per thread.
 // Dispatched when the lighting changes.
 //     Lightmap: dispatch (width + 7) / 8 by (height + 7) / 8 groups, then generate mipmaps. A texel is exit
 //     radiance for albedo 1. Surfaces sample the map like any texture, with filtering.

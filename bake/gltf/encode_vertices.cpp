@@ -1,4 +1,4 @@
-// Writes coded words of vertices in glTF files: PRTKIT_clustered_pca of docs/format.md.
+// Writes coded words of vertices in glTF files: docs/format.md.
 #include "bake/gltf/encode_vertices.h"
 
 #include "runtime/load/accessor.h"

@@ -26,7 +26,7 @@ float fallback_exposure(std::span<const glm::vec3> radiance, std::span<const flo
 /// nodes share are copied per node, and primitives without normals get flat normals. Returns the number of
 /// primitives that show the light. `scene` must be extracted from `document`. After `write_clustered`, save
 /// the document and read the file again before this call. Throws `Error` if `document` has no compressed
-/// transfer at vertices (PRTKIT_clustered_pca), if it is damaged, or if the copies need too much memory for
+/// transfer at vertices (PRTKIT_transfer), if it is damaged, or if the copies need too much memory for
 /// the size of the file.
 std::size_t write_fallback(GltfDocument& document, const Scene& scene, std::span<const glm::vec3> radiance,
                            float exposure);

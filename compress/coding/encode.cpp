@@ -1,5 +1,5 @@
 // Writes clusters and codes in file format: rows as integers over rounded axes, weights in bits; or both as
-// floats (docs/format.md, PRTKIT_clustered_pca).
+// floats (docs/format.md).
 
 #include "compress/coding/encode.h"
 

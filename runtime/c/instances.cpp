@@ -97,7 +97,8 @@ prt_status prt_instances_update_constants(const prt_model* model, int order, con
     return guarded(message, [&] {
         check_pointers(model, sky, constants);
         const prt::InstanceRelighter& relighter = instances_of(*model).relighter;
-        const prt::LightingView light = lighting_of({order, sky, suns, lamps}, model->relighter.layout().lamps());
+        const prt::LightingView light =
+            lighting_of({order, sky, suns, lamps}, model->relighter.layout().lamps());
         prt::Lighting lighting{{order, {light.sky.begin(), light.sky.end()}}};
         if (suns)
             lighting.suns = prt::Light{order, {light.suns.begin(), light.suns.end()}};

@@ -21,7 +21,7 @@ INDICES = {"accessor", "buffer", "bufferView", "camera", "index", "indices", "in
 SIZES = {"count", "byteLength", "byteOffset", "byteStride", "clusterBits", "order", "channels", "components", "componentType", "target", "width",
          "height"}
 EXTENSIONS = ["KHR_draco_mesh_compression", "EXT_meshopt_compression", "EXT_mesh_gpu_instancing", "KHR_materials_volume",
-              "KHR_texture_transform", "KHR_mesh_quantization", "KHR_node_visibility", "PRTKIT_transfer", "PRTKIT_clustered_pca",
+              "KHR_texture_transform", "KHR_mesh_quantization", "KHR_node_visibility", "PRTKIT_transfer",
               "PRTKIT_instances", "PRTKIT_lobes", "EXT_unheard_of"]
 
 

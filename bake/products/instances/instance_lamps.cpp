@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::size_t kUnknowns = 4 * kInstanceLampFunctions; ///< of one color
 /// Weight of zero light, relative to the mean diagonal of the normal matrix, so that functions that no vertex
-/// sees stay small in bytes. Errors of spheres, knots and trees differ by less than 2 % with 1e-5 and 1e-3; with
-/// 1e-2 they are 3 to 8 % larger.
+/// sees stay small in bytes. Errors of spheres, knots and trees differ by less than 2 % with 1e-5 and 1e-3;
+/// with 1e-2 they are 3 to 8 % larger.
 constexpr double kLampRidge = 1e-4;
 
 using LampMatrix = Eigen::MatrixXd;

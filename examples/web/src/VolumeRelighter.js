@@ -1,5 +1,5 @@
 // Computes incident light of the probes of a volume for the lookup in shaders/prt_volume.glsl, as
-// prt::VolumeRelighter does. Does not use three.js.
+// prt::TextureRelighter does. Does not use three.js.
 
 import { updateConstants, shaderRows } from "./clusteredPca.js";
 import { halvesOf } from "./halfFloat.js";

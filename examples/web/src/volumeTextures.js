@@ -1,4 +1,4 @@
-// Numbers of the textures that shaders/prt_volume.glsl reads: runtime/include/prt/core/volume_relighter.h describes
+// Numbers of the textures that shaders/prt_volume.glsl reads: runtime/include/prt/core/transfer_volume.h describes
 // their layout. Does not use three.js.
 
 import { BRICK_PROBES, NO_BRICK, SIDE } from "./volumeGrid.js";

@@ -95,19 +95,19 @@ Scene extract_scene(const GltfDocument& document);
 /// function that changes meshes. Throws `Error` if the copies exceed the memory limit of docs/format.md.
 void write_transfer(GltfDocument& document, const Scene& scene, const BakedTransfer& baked);
 
-/// Writes compressed transfer of vertices (PRTKIT_clustered_pca) into `document`, from which `scene` was
+/// Writes compressed transfer of vertices (PRTKIT_transfer) into `document`, from which `scene` was
 /// extracted. First removes what `discard_transfer` removes. Changes the meshes as
 /// `write_transfer` does; per document, call at most one function that changes meshes. Throws the errors of
 /// `write_transfer`.
 void write_clustered(GltfDocument& document, const Scene& scene, const CompressedTransfer& compressed);
 
 /// Returns the raw transfer of vertices in `document`, from which `scene` was extracted. Returns no value if
-/// the file has no PRTKIT_transfer. Throws `Error` if the transfer is damaged, too large or of another
+/// the file has no such transfer. Throws `Error` if the transfer is damaged, too large or of another
 /// version, or if instances share it and the file was read with `Instancing::nodes`
 /// (prt/gltf/transfer_gltf.h).
 std::optional<BakedTransfer> read_transfer(const GltfDocument& document, const Scene& scene);
 /// Returns the compressed transfer of vertices in `document`, from which `scene` was extracted. Returns no
-/// value if the file has no PRTKIT_clustered_pca. Throws `Error` if the transfer is damaged, too large or of
+/// value if the file has no such transfer. Throws `Error` if the transfer is damaged, too large or of
 /// another version, or if instances share it and the file was read with `Instancing::nodes`
 /// (prt/gltf/transfer_gltf.h). Also throws if the file has attributes _PRT_WEIGHTS_n or _PRT_CLUSTER, but no
 /// extension of prtkit.
