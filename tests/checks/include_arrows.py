@@ -62,7 +62,7 @@ HOMES = {
     "runtime/c": "prt",
     "runtime/fit": "lobe_fit suns",
     "runtime/load": "model",
-    "bake/gltf": "animation gltf refinement",
+    "bake/gltf": "animation gltf refinement transfer_gltf",
 }
 # Includes that are allowed although the table forbids them.
 EXCEPTIONS = {
