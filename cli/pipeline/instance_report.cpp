@@ -79,7 +79,8 @@ Report instance_report(const InstanceOutcome& outcome) {
         "(at the samples, under soft skies and {instances/lights:#given light})"};
     if (!baked.bake.lamp_errors.empty())
         report.sentences.emplace_back(
-            "of the light of lamps: median {instances/lamp_error_relative_l2/median:.2f%}, 99th percentile "
+            "error of the light of lamps: median {instances/lamp_error_relative_l2/median:.2f%}, 99th "
+            "percentile "
             "{instances/lamp_error_relative_l2/percentile_99:.2f%}, maximum "
             "{instances/lamp_error_relative_l2/max:.2f%} (at the vertices, all lamps together)");
     for (std::size_t i = 0; i < s.notices.size(); ++i)

@@ -91,19 +91,20 @@ prt_status prt_instances_of_mesh(const prt_model* model, size_t mesh, size_t* fi
     });
 }
 
-prt_status prt_instances_update_constants(const prt_model* model, int order, const float* sky,
-                                          const float* suns, const float* lamps, int threads,
+prt_status prt_instances_update_constants(const prt_model* model, const prt_lighting* lighting, int threads,
                                           float* constants, prt_message* message) {
     return guarded(message, [&] {
-        check_pointers(model, sky, constants);
+        check_pointers(model, lighting, constants);
+        check_pointers(lighting->sky);
         const prt::InstanceRelighter& relighter = instances_of(*model).relighter;
         const prt::LightingView light =
-            lighting_of({order, sky, suns, lamps}, model->relighter.layout().lamps());
-        prt::Lighting lighting{{order, {light.sky.begin(), light.sky.end()}}};
-        if (suns)
-            lighting.suns = prt::Light{order, {light.suns.begin(), light.suns.end()}};
-        lighting.lamps.assign(light.lamps.begin(), light.lamps.end());
-        relighter.update(lighting, {reinterpret_cast<glm::vec4*>(constants), relighter.size()}, threads);
+            lighting_of({lighting->order, lighting->sky, lighting->suns, lighting->lamps},
+                        model->relighter.layout().lamps());
+        prt::Lighting copy{{lighting->order, {light.sky.begin(), light.sky.end()}}};
+        if (lighting->suns)
+            copy.suns = prt::Light{lighting->order, {light.suns.begin(), light.suns.end()}};
+        copy.lamps.assign(light.lamps.begin(), light.lamps.end());
+        relighter.update(copy, {reinterpret_cast<glm::vec4*>(constants), relighter.size()}, threads);
         if (!within(kMaxConstant, constants, 4 * relighter.size()))
             throw Error("the light is too bright for the model: constants exceed 1e30");
     });

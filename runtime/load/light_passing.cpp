@@ -20,12 +20,12 @@ bool has_medium(const Material& material) {
 }
 
 bool lit_through_medium(const Material& material) {
-    return material.baked_medium || has_medium(material);
+    return material.volume.baked || has_medium(material);
 }
 
 void mark_media(Scene& scene, const BakeRecord& record) {
     for (std::size_t m = 0; m < scene.materials.size(); ++m)
-        scene.materials[m].baked_medium =
+        scene.materials[m].volume.baked =
             std::ranges::find(record.media, lamp_name(scene, m)) != record.media.end();
 }
 

@@ -18,10 +18,10 @@ float glass_transmittance(const Material& material);
 bool has_medium(const Material& material);
 
 /// Returns whether all light passes through a medium below the surface: `has_medium`, or
-/// Material::baked_medium. Separate suns light such a surface only through transfer.
+/// MaterialVolume::baked. Separate suns light such a surface only through transfer.
 bool lit_through_medium(const Material& material);
 
-/// Sets Material::baked_medium of the materials of `scene` from the record of its transfer.
+/// Sets MaterialVolume::baked of the materials of `scene` from the record of its transfer.
 void mark_media(Scene& scene, const BakeRecord& record);
 
 } // namespace prt

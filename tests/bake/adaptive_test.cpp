@@ -142,9 +142,9 @@ TEST(TargetError, IsReachedByFitsToTheSurface) {
         const BakeResult result = bake(scene, options);
         EXPECT_TRUE(result.baked.record.fitted);
         EXPECT_LE(result.statistics.sampling_error, target);
-        // The samples are the same: only noise, and smoothness weights that depend on it, differ.
+        // The estimate of a fit is correct within a factor of two (FittedBake.EstimatesItsNoise).
         const double error = relative_l2(reference, result.baked.transfer, receiver_areas(scene));
-        EXPECT_LT(error, 1.25 * target);
+        EXPECT_LT(error, 2 * target);
         EXPECT_GT(error, 0.2 * target); // no rays thrown away
     }
 }

@@ -64,12 +64,13 @@ TEST_F(Volumes, ReceiveTheLightOfTheHighPolyModel) {
         std::vector<std::string> arguments = {"bake",    at(file), "-o",       at("b.glb"), "--rays",    "32",
                                               "--order", "3",      "--volume", "1",         "--bounces", "1"};
         std::ranges::move(options, std::back_inserter(arguments));
-        EXPECT_EQ(prt(arguments).status, 0);
+        const Outcome outcome = prt(arguments);
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
         const GltfDocument document = load_gltf(folder / "b.glb");
         return read_volume(document, extract_scene(document)).value();
     };
     const BakedVolume both = volume("scene.glb",
-                                    {"--texels", "16", "--texels", "unwrap", "--high-poly", at("dark.glb")}),
+                                    {"--texels", "64", "--texels", "unwrap", "--high-poly", at("dark.glb")}),
                       alone = volume("whole.glb", {}), bright = volume("scene.glb", {});
     EXPECT_EQ(both.grid, alone.grid);
     EXPECT_EQ(both.baked.transfer.layout, alone.baked.transfer.layout);

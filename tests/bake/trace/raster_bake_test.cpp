@@ -63,13 +63,8 @@ TEST(RasterBake, BouncesTheLightOfDepthMapsByRays) {
 TEST(RasterBake, ReachesATargetErrorWithDirections) {
     const Scene scene = balls_over_floor();
     const std::vector<float> areas = receiver_areas(scene);
-<<<<<<< ours
-    const Transfer reference = transfer(scene, by_maps(1 << 14));
-    for (const double target : {0.1, 0.03}) {
-=======
     const Transfer reference = transfer(scene, by_maps(1 << 13));
     for (const double target : {0.05, 0.02}) {
->>>>>>> theirs
         BakeOptions options = by_maps(1);
         options.target_error = target;
         const BakeResult result = bake(scene, options);
@@ -87,24 +82,26 @@ TEST(RasterBake, ReachesATargetErrorWithDirections) {
 TEST(RasterBake, FitsSurfacesToDepthMaps) {
     const Scene scene = balls_over_floor();
     const std::vector<float> areas = receiver_areas(scene);
-    BakeOptions maps = by_maps(4096), rays = by_rays(4096);
+    BakeOptions maps = by_maps(2048), rays = by_rays(2048);
     maps.fit = rays.fit = FitMode::surface;
     const BakeResult fitted = bake(scene, maps);
     EXPECT_TRUE(fitted.baked.record.fitted);
     EXPECT_EQ(fitted.baked.record.method, BakeMethod::raster);
     const Transfer truth = transfer(scene, rays);
-    const double error_of_vertices =
-        relative_l2(transfer(scene, by_rays(4096)), transfer(scene, by_maps(4096)), areas);
-    EXPECT_LT(relative_l2(truth, fitted.baked.transfer, areas), 2 * error_of_vertices);
-    // The fit differs from light at vertices by more than depth maps from rays.
-    EXPECT_GT(relative_l2(truth, transfer(scene, by_rays(4096)), areas), 2 * error_of_vertices);
+    // A sample has this number of directions; the fit averages over samples.
+    const int few = 2048 / fitted.statistics.fit.samples;
+    const double error = relative_l2(truth, fitted.baked.transfer, areas);
+    EXPECT_LT(error, relative_l2(transfer(scene, by_rays(few)), transfer(scene, by_maps(few)), areas));
+    EXPECT_GT(relative_l2(truth, transfer(scene, by_rays(2048)), areas), error); // which is not fitted
 }
 
 TEST(RasterBake, RefinesByTheLightOfRays) {
     const Scene scene = balls_over_floor();
-    const RefineOptions how{.target = 0.1, .max_vertices = 3000};
-    const RefineStatistics maps = refine(scene, by_maps(128), how).statistics,
-                           rays = refine(scene, by_rays(128), how).statistics;
+    const RefineOptions how{.target = 0.03, .max_vertices = 3000};
+    BakeOptions of_maps = by_maps(128), of_rays = by_rays(128);
+    of_maps.fit = of_rays.fit = FitMode::automatic;
+    const RefineStatistics maps = refine(scene, of_maps, how).statistics,
+                           rays = refine(scene, of_rays, how).statistics;
     EXPECT_GT(maps.rounds, 0);
     // GPUs differ from the CPU by grazing rays.
     EXPECT_NEAR(static_cast<double>(maps.after.vertices), static_cast<double>(rays.after.vertices),
@@ -121,7 +118,7 @@ struct FloorMap {
         vertices.texcoords.assign(1, {});
         for (const glm::vec3& p : vertices.positions)
             vertices.texcoords[0].emplace_back((p.x + 2) / 4, (p.z + 2) / 4);
-        atlases = plan_atlases(scene, {.size = 12, .uv_set = 0});
+        atlases = plan_atlases(scene, {.size = 8, .uv_set = 0});
     }
 };
 
@@ -133,7 +130,7 @@ TEST(RasterBake, FillsTexelsFromDepthMaps) {
         const auto map = [&](const BakeOptions& options) {
             return bake_lightmap(floor.scene, floor.atlases, options, {&balls, 0.01}).lightmap;
         };
-        const BakedLightmap maps = map(by_maps(2048, bounces)), rays = map(by_rays(2048, bounces));
+        const BakedLightmap maps = map(by_maps(1024, bounces)), rays = map(by_rays(1024, bounces));
         EXPECT_EQ(maps.baked.record.method, BakeMethod::raster);
         ASSERT_EQ(maps.texels, rays.texels);
         const std::vector<float>& areas = rays.areas;
@@ -150,7 +147,7 @@ TEST(RasterBake, ReachesATargetErrorOfTexels) {
     const auto map = [&](const BakeOptions& options) {
         return bake_lightmap(floor.scene, floor.atlases, options, {&balls, 0.01});
     };
-    const Transfer reference = map(by_maps(1 << 14)).lightmap.baked.transfer;
+    const Transfer reference = map(by_maps(1 << 13)).lightmap.baked.transfer;
     BakeOptions options = by_maps(1);
     options.target_error = 0.04;
     const LightmapBake result = map(options);

@@ -56,10 +56,9 @@ TEST_F(CInstances, HaveTheConstantsOfCpp) {
     for (glm::vec3& c : lighting.sky.coefficients)
         c += glm::vec3(normal(random), normal(random), normal(random));
     std::vector<float> constants(4 * info.constants);
-    ASSERT_EQ(prt_instances_update_constants(model, 3, &lighting.sky.coefficients[0].x,
-                                             &lighting.suns->coefficients[0].x, &lighting.lamps[0].x, 1,
-                                             constants.data(), nullptr),
-              PRT_OK);
+    const prt_lighting given{3, &lighting.sky.coefficients[0].x, &lighting.suns->coefficients[0].x,
+                             &lighting.lamps[0].x, nullptr};
+    ASSERT_EQ(prt_instances_update_constants(model, &given, 1, constants.data(), nullptr), PRT_OK);
     const GltfDocument document = parse_gltf(std::as_bytes(std::span(encoded)), "scene.glb");
     const InstancedModel expected = read_instanced(document, extract_scene(document), "scene.glb");
     const InstanceRelighter relighter(expected.compressed->transfer, relit_instances(expected));
@@ -89,13 +88,18 @@ TEST_F(CInstances, BadArgumentsAreRejected) {
     EXPECT_EQ(prt_instances_of_mesh(model, 2, &first, &count, nullptr), PRT_BAD_ARGUMENT);
     EXPECT_EQ(prt_instances_of_mesh(model, 0, nullptr, &count, nullptr), PRT_BAD_ARGUMENT);
     std::vector<float> light(3 * 9, 1e30f), constants(4 * info.constants);
-    EXPECT_EQ(prt_instances_update_constants(model, 3, light.data(), nullptr, nullptr, 1, constants.data(),
-                                             nullptr),
-              PRT_BAD_ARGUMENT);
-    light.assign(3 * 4, 1);
-    EXPECT_EQ(prt_instances_update_constants(model, 2, light.data(), nullptr, nullptr, 1, constants.data(),
-                                             nullptr),
-              PRT_BAD_ARGUMENT);
+    prt_lighting given{3, light.data(), nullptr, nullptr, nullptr};
+    const auto update = [&] {
+        return prt_instances_update_constants(model, &given, 1, constants.data(), nullptr);
+    };
+    EXPECT_EQ(update(), PRT_BAD_ARGUMENT);
+    light.assign(3 * 9, 1);
+    EXPECT_EQ(update(), PRT_OK);
+    given.order = 2;
+    EXPECT_EQ(update(), PRT_BAD_ARGUMENT);
+    const std::vector<float> blinding(3, 1e30f);
+    given = {3, light.data(), nullptr, blinding.data(), nullptr};
+    EXPECT_EQ(update(), PRT_BAD_ARGUMENT);
 }
 
 } // namespace c_instances

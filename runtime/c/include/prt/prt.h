@@ -284,14 +284,22 @@ PRT_API prt_status prt_instances_get_info(const prt_model* model, prt_instances_
  * instances it is always 0. For an index out of range in a model with instances returns PRT_BAD_ARGUMENT. */
 PRT_API prt_status prt_instances_of_mesh(const prt_model* model, size_t mesh, size_t* first, size_t* count,
                                          prt_message* message);
-/* Computes the constants of all instances and writes them to `constants` [prt_instances_info.constants][4].
- * The shader of prt_instances_shader reads these instead of the constants of the model. `order`, `sky`,
- * `suns`, `lamps` and the limits are those of prt_model_update_constants_separate; `suns` and `lamps` may be
- * null. `threads`: number of threads, 0: all of the machine. For a model without instances
- * returns PRT_BAD_ARGUMENT. */
-PRT_API prt_status prt_instances_update_constants(const prt_model* model, int order, const float* sky,
-                                                  const float* suns, const float* lamps, int threads,
-                                                  float* constants, prt_message* message);
+/* Lighting of instances or of a volume. The caller owns the arrays. */
+typedef struct prt_lighting {
+    int order;          /* number of SH bands of `sky` and `suns`, at least that of the model or volume */
+    const float* sky;   /* [order*order][3] */
+    const float* suns;  /* [order*order][3], result of prt_light_suns; null: no separate suns */
+    const float* lamps; /* [lamps of the model or volume][3] strength or color of each lamp; null: all 1 */
+    const float* sun;   /* [3] direction to the sun whose visibility the light texture of a volume stores, of
+                           any   length except 0; null, or has_direct_term 0: the stored visibility is 0.
+                           Instances   ignore it */
+} prt_lighting;
+/* Computes the constants of all instances under `lighting` and writes them to `constants`
+ * [prt_instances_info.constants][4]. The shader of prt_instances_shader reads these instead of the constants
+ * of the model. The limits are those of prt_model_update_constants_separate. `threads`: number of threads, 0:
+ * all of the machine. For a model without instances returns PRT_BAD_ARGUMENT. */
+PRT_API prt_status prt_instances_update_constants(const prt_model* model, const prt_lighting* lighting,
+                                                  int threads, float* constants, prt_message* message);
 /* Writes the source of the vertex shader for instances, with a final 0, to `source`. The shader has the
  * inputs of prt_model_shader, and per instance the rows of prt_instances_info.worlds at locations 10 to 12
  * and those of prt_instances_info.tables at locations 13 and 14. `language`, `constants`, `source` and *size
@@ -347,15 +355,6 @@ typedef struct prt_volume_textures {
 PRT_API prt_status prt_volume_get_textures(const prt_volume* volume, prt_volume_textures* out,
                                            prt_message* message);
 
-/* Lighting of a volume. The caller owns the arrays. */
-typedef struct prt_lighting {
-    int order;          /* number of SH bands of `sky` and `suns`, at least prt_volume_info.order */
-    const float* sky;   /* [order*order][3] */
-    const float* suns;  /* [order*order][3], result of prt_light_suns; null: no separate suns */
-    const float* lamps; /* [prt_volume_info.lamps][3] strength or color of each lamp; null: all 1 */
-    const float* sun;   /* [3] direction to the sun whose visibility the light texture stores, of any length
-                           except 0; null, or has_direct_term 0: the stored visibility is 0 */
-} prt_lighting;
 /* Computes the constants of a volume under `lighting` and writes them to `constants`
  * [prt_volume_info.rows][4]. Separate suns work as in prt_model_update_constants_separate. Allocates nothing.
  * If the magnitude of a coefficient or strength exceeds 1e20, or that of a constant 1e30, returns

@@ -77,6 +77,9 @@ struct MaterialVolume {
     /// Distance in metres after which `attenuation_color` remains; infinite: no attenuation.
     float attenuation_distance = std::numeric_limits<float>::infinity();
     glm::vec3 attenuation_color{1}; ///< transmittance over `attenuation_distance`, linear Rec. 709, 0..1
+    /// Whether transfer contains light that passes through a medium which the file does not describe
+    /// (BakeRecord::media). Functions that read transfer set it.
+    bool baked = false;
 };
 
 /// Metallic and roughness factors of a surface. Baking uses them to reduce the diffuse reflection of smooth
@@ -112,9 +115,6 @@ struct Material {
     Glass glass;                      ///< specular transmission; default: none
     MaterialVolume volume;            ///< medium below the surface; default: none
     Emission emission;                ///< emitted light; default: none
-    /// Whether transfer contains light that passes through a medium which the file does not describe
-    /// (BakeRecord::media). Functions that read transfer set it.
-    bool baked_medium = false;
 };
 
 /// Vertices of one primitive, or of several primitives of one node that share them. Each vertex is a
