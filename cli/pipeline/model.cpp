@@ -65,6 +65,28 @@ void put_in_order_of(const Scene& scene, SceneFile& baked) {
     baked.scene = scene;
 }
 
+namespace {
+
+/// Reads the texels of a file, and their transfer into `baked` or `compressed`; empty if it has none.
+std::optional<LightmapOfFile> read_texels(const GltfDocument& document, const Scene& scene, const Path& path,
+                                          std::optional<BakedTransfer>& baked,
+                                          std::optional<CompressedTransfer>& compressed) {
+    if (std::optional<BakedLightmap> raw = read_lightmap(document, scene)) {
+        std::vector<Edge> edges = lightmap_edges(raw->layout, raw->texels, raw->seams);
+        baked = std::move(raw->baked);
+        return LightmapOfFile{std::move(raw->layout), std::move(raw->texels), std::move(raw->areas),
+                              std::move(raw->seams), std::move(edges)};
+    }
+    std::optional<EncodedLightmap> encoded = read_encoded_lightmap(document, scene);
+    if (!encoded)
+        return std::nullopt;
+    CompressedLightmap shipped = about(path, [&] { return decoded_lightmap(std::move(*encoded)); });
+    compressed = std::move(shipped.compressed);
+    return LightmapOfFile{std::move(shipped.layout)};
+}
+
+} // namespace
+
 SceneFile load_scene_file(const Path& path, const ReadingOptions& options) {
     return scene_file_of(load_gltf(path, options), path, options.notify, options.shared);
 }
@@ -84,17 +106,8 @@ SceneFile scene_file_of(GltfDocument document, const Path& path, const Notify& n
                     : BakedTransfer{decode(instanced->compressed->transfer), instanced->compressed->record};
         baked->transfer = expanded(document, scene, instanced->stored, baked->transfer);
     }
-    std::optional<LightmapOfFile> lightmap;
-    if (std::optional<BakedLightmap> raw = read_lightmap(document, scene)) {
-        std::vector<Edge> edges = lightmap_edges(raw->layout, raw->texels, raw->seams);
-        lightmap = {std::move(raw->layout), std::move(raw->texels), std::move(raw->areas),
-                    std::move(raw->seams), std::move(edges)};
-        baked = std::move(raw->baked);
-    } else if (std::optional<EncodedLightmap> encoded = read_encoded_lightmap(document, scene)) {
-        CompressedLightmap shipped = about(path, [&] { return decoded_lightmap(std::move(*encoded)); });
-        lightmap = {std::move(shipped.layout)};
-        compressed = std::move(shipped.compressed);
-    } else if (!instanced) {
+    std::optional<LightmapOfFile> lightmap = read_texels(document, scene, path, baked, compressed);
+    if (!lightmap && !instanced) {
         baked = read_transfer(document, scene);
         compressed = read_clustered(document, scene);
     }
