@@ -60,6 +60,8 @@ std::vector<std::vector<std::byte>> read_images(const GltfData& data, const Json
 } // namespace
 
 LightmapLayout read_layout_of_maps(const GltfData& data, const Scene& scene, const Json& set) {
+    if (extension_of(data.json, kInstancesExtension))
+        throw Error("has texels, but its instances share transfer of vertices; run prt bake again");
     LightmapLayout layout;
     const Json& maps = set.at("maps");
     if (!maps.is_array() || maps.empty())
