@@ -14,7 +14,8 @@ set(long_tests
     LightmapViewer.CompletesAVertexBake* LightmapViewer.HasNumbers* LightmapViewer.CombinesABake*
     LightmapViewer.ShowsVertices* Lightmaps.AreDecoded* LobesCommand.IsByteIdentical* Make.Keeps* Make.MeetsTheError*
     Make.ReportsWhy* Make.ReportsMissing* ManyReceivers.* OtherLayouts.NoiseIs* ParallelPlates.OneBounce*
-    PathTracer.AgreesWith* PlainSkies.YieldNo* PlainSkies.HaveNo* RenderSuns.* Pipeline.ADecoder*
+    PathTracer.AgreesWith* PlainSkies.YieldNo* PlainSkies.HaveNo* RasterBake.Fills* RasterBake.Fits* RasterBake.Reaches*
+    TargetError.IsReachedByFits* RenderSuns.* Pipeline.ADecoder*
     Pipeline.AutomaticExposure* Pipeline.BouncesOnTheGpu* Pipeline.EveryView* SamplingError.* SceneLamps.BakerLamps*
     Script.KeysAnd* Script.MeasuresTheErrorBudget* Script.OpensWaits* Search.MatchesAGrid* Search.IsMonotone*
     Search.IsNeverWorse* Search.Keeps* Search.LimitsJumps* Search.OperationBudget* Search.Presets*
