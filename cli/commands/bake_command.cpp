@@ -9,6 +9,7 @@
 #include "cli/arguments/scene_arguments.h"
 #include "cli/arguments/suboptions.h"
 #include "cli/arguments/texel_arguments.h"
+#include "cli/arguments/trace_arguments.h"
 #include "cli/arguments/volume_arguments.h"
 #include "cli/pipeline/back_sides.h"
 #include "cli/pipeline/instance_report.h"
@@ -50,13 +51,6 @@ struct BakeArguments {
     ReadingOptions reading;
 };
 
-constexpr Choice<BakeMethod> kBakeMethods[] = {
-    {"trace", BakeMethod::trace, "rays, traced by the processor of --device"},
-    {"raster", BakeMethod::raster,
-     "depth maps from --rays N directions, by OpenGL 4.5, for direct light of the sky at surfaces\n"
-     "  bounces, lamps, probes of --volume and errors for --refine: rays, as with --method trace\n"
-     "  the light that --instances shares: also rays, on the CPU\n"
-     "  --device auto: a hardware GPU, else error; gpu: also a software driver; others: error"}};
 constexpr Choice<std::optional<TransferStorage>> kStorages[] = {
     {"auto", std::nullopt,
      "float16 if its rounding error is below 1/10 of the noise of the rays, else float32\n"
@@ -221,7 +215,7 @@ void add_lamps(CLI::App* command, LampOptions& lamps) {
         ->default_str("all");
 }
 
-void add_method(CLI::App* command, BakeOptions& options) {
+void add_measurement(CLI::App* command, BakeOptions& options) {
     choice(command, "--denoise", options.repairs.denoise, kDenoise,
            "removal of the noise of rays from the baked light\n"
            "no effect with --refine, --fit surface (also if --fit auto chooses it), --method raster\n"
@@ -235,17 +229,8 @@ void add_method(CLI::App* command, BakeOptions& options) {
             "with --refine: auto acts as surface; vertex is an error\n"
             "with --target-error, --method raster and shared instances: auto acts as vertex\n"
             "  surface: --instances fits shared transfer, but its factors to light at vertices");
-    Suboptions("--method", names_of(kBakeMethods), "method that finds which directions are blocked",
-               [&options](const std::string& name) {
-                   options.tracer.method = chosen("--method", kBakeMethods, name);
-               })
-        .detail(explained(kBakeMethods).substr(1))
-        .whole_number("resolution", 16, 16384,
-                      "texels along each side of a depth map, 16 to 16384; needs raster [1024]\n"
-                      "  more than the GPU supports: an error",
-                      [&options](int texels) { options.tracer.raster_resolution = texels; })
-        .add(command)
-        ->default_str("trace");
+    add_method(command, options.tracer,
+               "bounces, lamps, probes of --volume, errors for --refine, light that --instances shares");
 }
 
 void add_refinement(CLI::App* command, BakeArguments& a) {
@@ -532,23 +517,17 @@ void add_bake(CLI::App& app, Session& session) {
                 "with --method raster: number of directions of depth maps, the same for all vertices")
             ->capture_default_str()
             ->check(CLI::Range(1, kMaxRays));
-    command
-        ->add_option(
-            "--target-error", a.options.target_error,
-            "trace rays until direct light has at most this relative L2 noise\n"
-            "X: above 0; 0.01: 1 %; over the whole surface, before --denoise; sky only, not lamps\n"
-            "the number of rays differs between vertices, at most 2^24 each; default: that of --rays\n"
-            "  it is the same for all with --texels, --fit surface, --refine and --method raster\n"
-            "with shared instances: of each mesh alone, and of all surfaces that are drawn once\n"
-            "no effect on probes of --volume and on the errors for --refine; not with --rays")
-        ->check(above_zero())
-        ->excludes(rays);
+    add_target_error(command, rays, a.options.target_error,
+                     "\nthe noise before --denoise; the number of rays differs between vertices\n"
+                     "  it is the same for all with --texels, --fit surface, --refine and --method raster\n"
+                     "with shared instances: of each mesh alone, and of all surfaces that are drawn once\n"
+                     "no effect on probes of --volume and on the errors for --refine");
     add_transport(command, a.options);
     add_lamps(command, a.options.lamps);
     add_lamp_scale(command, a.reading.lamp_scale,
                    "\nthe written file contains the scaled lights; do not scale them again");
     add_no_shadow(command, a.no_shadow, "\nno effect on the model of --high-poly");
-    add_method(command, a.options);
+    add_measurement(command, a.options);
     add_refinement(command, a);
     add_back_sides(
         command, a.back_sides,

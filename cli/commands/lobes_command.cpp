@@ -5,6 +5,7 @@
 #include "bake/gltf/encode_glb.h"
 #include "cli/arguments/options.h"
 #include "cli/arguments/suboptions.h"
+#include "cli/arguments/trace_arguments.h"
 #include "cli/pipeline/lobe_errors.h"
 #include "cli/program/outputs.h"
 #include "cli/program/session.h"
@@ -109,7 +110,7 @@ Report report_of(const LobesArguments& a, const Made& made, std::size_t poses) {
                           lobes.profiles.size() * sizeof(float) * static_cast<std::size_t>(lobes.order)},
                          {"poses", poses},
                          {"rays", made.mean.rays},
-                         {"rays_per_receiver", a.bake.rays},
+                         {"rays_per_receiver", made.mean.rays_per_vertex},
                          {"bounces", a.bake.bounces},
                          {"fit_relative_l2", made.fit_error},
                          {"coded_relative_l2", made.coded_error},
@@ -159,12 +160,13 @@ void run(LobesArguments a, Session& session) {
             print_notices(a.model.string(),
                           {"no vertex moves in these poses; use prt bake for a model that does not move"});
         const Made made = make_lobes(a, model, poses, session);
+        const int rays = made.mean.rays_per_vertex;
         report = report_of(a, made, poses.size());
         measure_frames(a, model, made, session, report);
         write_lobes(document, model.scene(),
                     {made.lobes,
                      {.poses = static_cast<int>(poses.size()),
-                      .rays = a.bake.rays,
+                      .rays = rays,
                       .bounces = a.bake.bounces,
                       .seed = a.bake.seed}});
     });
@@ -198,12 +200,17 @@ void add_quality(CLI::App* command, LobesArguments& a) {
              [&a](const std::string& name) { a.animation = name; })
         .add(command)
         ->default_str("8");
-    command
-        ->add_option("--rays", a.bake.rays,
-                     "number of rays per vertex and pose, 1 to 2^24\n"
-                     "also for each frame at which the error is measured")
-        ->capture_default_str()
-        ->check(CLI::Range(1, kMaxRays));
+    CLI::Option* rays = command
+                            ->add_option("--rays", a.bake.rays,
+                                         "number of rays per vertex and pose, 1 to 2^24\n"
+                                         "also for each frame at which the error is measured\n"
+                                         "with --method raster: number of directions of depth maps")
+                            ->capture_default_str()
+                            ->check(CLI::Range(1, kMaxRays));
+    add_target_error(command, rays, a.bake.target_error,
+                     "\nin each pose and frame; the number of rays differs between vertices\n"
+                     "  it is the same for all with --method raster");
+    add_method(command, a.bake.tracer, "bounces");
     command
         ->add_option("--bounces", a.bake.bounces,
                      "number of bounces between surfaces of the model\n"

@@ -112,6 +112,28 @@ TEST_F(LobesCommand, AreRenderedInThePoseOfTheFile) {
     EXPECT_GT(difference(open), 2 * difference(posed));
 }
 
+/// Both determine how the light of a pose is measured: a smaller error needs more rays, and depth maps give
+/// the light of rays.
+TEST_F(LobesCommand, MeasuresLightWithATargetErrorAndByDepthMaps) {
+    const auto figures = [&](std::vector<std::string> options) {
+        options.insert(options.end(), {"--poses", "1", "--poses", "frames=1", "--bounces", "0", "--lobes",
+                                       "1", "--json", at("lobes.json")});
+        const Outcome outcome = lobes("figure.glb", options);
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        return read_json(folder / "lobes.json");
+    };
+    const int coarse = figures({"--target-error", "0.2"})["rays_per_receiver"],
+              fine = figures({"--target-error", "0.1"})["rays_per_receiver"];
+    EXPECT_GT(fine, 2 * coarse); // four times, without the minimum number of rays
+    const double rays = figures({"--rays", "256"})["lit_rms"],
+                 maps = figures({"--rays", "256", "--method", "raster", "--method", "resolution=256",
+                                 "--device", "gpu"})["lit_rms"];
+    EXPECT_NEAR(maps, rays, 0.3 * rays);
+    EXPECT_EQ(
+        prt({"lobes", at("figure.glb"), "-o", at("out.glb"), "--rays", "64", "--target-error", "0.1"}).status,
+        2);
+}
+
 TEST_F(LobesCommand, RejectsStaticModels) {
     GlbFile still = read_glb(folder / "figure.glb");
     still.json.erase("animations");

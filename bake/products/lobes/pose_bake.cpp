@@ -2,6 +2,7 @@
 
 #include "prt/bake/pose_bake.h"
 
+#include "prt/bake/bake.h"
 #include "prt/core/error.h"
 #include "runtime/support/parallel.h"
 
@@ -23,6 +24,7 @@ BakeOptions bake_options_of(const PoseBakeOptions& options) {
     BakeOptions bake;
     bake.order = options.order;
     bake.rays = options.rays;
+    bake.target_error = options.target_error;
     bake.bounces = options.bounces;
     bake.tracer = options.tracer;
     bake.lamps.mode = LampMode::none;
@@ -87,7 +89,8 @@ PoseTransfer bake_pose(const AnimatedScene& model, const ModelPose& pose, const 
     PoseTransfer baked{as_combined(result.baked.transfer, options.threads),
                        receiver_areas(scene),
                        {},
-                       result.statistics.rays};
+                       result.statistics.rays,
+                       result.baked.record.rays};
     baked.sealed.resize(baked.areas.size());
     for (const std::uint32_t v : result.sealed) {
         baked.sealed[v] = true;
@@ -104,6 +107,7 @@ MeanTransfer mean_of_poses(const AnimatedScene& model, std::span<const ModelPose
     mean.areas.resize(vertices);
     mean.vectors.resize(vertices * mean.coefficients());
     std::vector<double> weights(vertices);
+    double rays = 0;
     const auto share = [&](std::size_t p) {
         return static_cast<double>(p) / static_cast<double>(poses.size());
     };
@@ -116,7 +120,9 @@ MeanTransfer mean_of_poses(const AnimatedScene& model, std::span<const ModelPose
         for (std::size_t v = 0; v < vertices; ++v)
             mean.areas[v] += baked.areas[v] / static_cast<float>(poses.size());
         mean.rays += baked.rays;
+        rays += baked.rays_per_vertex;
     }
+    mean.rays_per_vertex = static_cast<int>(std::lround(rays / static_cast<double>(poses.size())));
     const std::vector<float> standing = receiver_areas(model.scene());
     for (std::size_t v = 0; v < vertices; ++v) {
         for (std::size_t i = 0; i < mean.coefficients(); ++i)

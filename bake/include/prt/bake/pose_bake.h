@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -38,11 +39,13 @@ std::vector<ModelPose> frames_of(const AnimatedScene& model, int count, const st
 
 /// Settings of the bake of each pose.
 struct PoseBakeOptions {
-    int order = 4;            ///< order of the transfer, 1..kMaxOrder
-    int rays = 256;           ///< number of rays per vertex and pose, 1..kMaxRays
-    int bounces = 1;          ///< number of bounces, 0..kMaxBounces, or kEndlessBounces
-    TracerChoice tracer = {}; ///< hardware and method that trace the rays; depth maps and a distance fall-off
-                              ///< need 0 bounces
+    int order = 4;   ///< order of the transfer, 1..kMaxOrder
+    int rays = 256;  ///< number of rays per vertex and pose, 1..kMaxRays
+    int bounces = 1; ///< number of bounces, 0..kMaxBounces, or kEndlessBounces
+    /// Target error of each pose, which replaces `rays`, as in BakeOptions::target_error.
+    std::optional<double> target_error = {};
+    TracerChoice tracer =
+        {}; ///< hardware and method that trace the rays; a distance fall-off needs 0 bounces
     BadTextures bad_textures = BadTextures::error; ///< treatment of missing and damaged textures
     int threads = 0;                               ///< number of threads; 0: all
     std::uint64_t seed = 0;                        ///< seed of the random directions of rays
@@ -57,6 +60,7 @@ struct PoseTransfer {
     std::vector<float> areas; ///< [vertices] area in this pose, m²; 0 for sealed vertices
     std::vector<bool> sealed; ///< [vertices] true: the vertex is inside solid geometry and never visible
     std::size_t rays = 0;     ///< number of all traced rays
+    int rays_per_vertex = 0;  ///< BakeRecord::rays
 };
 /// Bakes the transfer of the model in `pose`. Throws `Error` if a coordinate of a vertex, relative to
 /// Scene::origin of the model, exceeds kFarthestVertex in this pose, and the errors of `bake`.
@@ -100,7 +104,8 @@ struct MeanTransfer {
     /// [vertices] m²: mean area over the poses, in which a sealed vertex has the area 0. A vertex that is
     /// sealed in all poses has a hundredth of its area in the pose of the file.
     std::vector<float> areas;
-    std::size_t rays = 0; ///< number of all traced rays
+    std::size_t rays = 0;    ///< number of all traced rays
+    int rays_per_vertex = 0; ///< mean of PoseTransfer::rays_per_vertex
     /// Number of vertices that are sealed in all poses; they have the transfer of their neighbours.
     std::size_t hidden = 0;
 
