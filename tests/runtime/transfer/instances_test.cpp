@@ -288,10 +288,11 @@ TEST(Instances, ConstantsAreModesTimesFactors) {
 /// the irradiance over pi is (1 + 2 u_x) (1 + 2/3).
 TEST(Instances, LampLightIsIncidentLightThatIsLinearInThePosition) {
     Transfer transfer = zero_transfer({3, {{TermKind::direct, 1}, {TermKind::lamp, 3, "Lantern"}}}, 2);
-    std::vector<float> lobe(9);
-    clamped_cosine_lobe(3, glm::dvec3(0, 1, 0), std::span(lobe));
+    std::vector<double> lobe(9);
+    clamped_cosine_lobe(3, glm::dvec3(0, 1, 0), lobe);
     for (std::size_t r = 0; r < 2; ++r)
-        std::ranges::copy(lobe, transfer.vector(r).begin());
+        std::ranges::transform(lobe, transfer.vector(r).begin(),
+                               [](double value) { return static_cast<float>(value); });
     InstanceLampLight light;
     light.functions[0][0] = {2, 0, 0, 1};                             // sqrt(4 pi) Y_00 = 1
     light.functions[1][0] = light.functions[0][0] / -std::sqrt(3.0f); // sqrt(4 pi) Y_1-1 = -sqrt(3) y
