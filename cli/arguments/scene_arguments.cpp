@@ -30,9 +30,10 @@ constexpr Choice<InstanceMode> kInstanceModes[] = {
      "  not with --texels and --refine\n"
      "  with subsurface scattering, instances of another scale than most of their mesh: as own\n"
      "  with coarser levels of detail, instances that have them: as own\n"
-     "  lamps: baked at all vertices; 304 bytes more per lamp and instance"},
+     "  lamps: traced at the vertices of all instances; 304 bytes more per lamp and instance"},
     {"auto", InstanceMode::automatic,
-     "shared if possible and if it saves at least 3/4 of the rays of these meshes, else own"}};
+     "shared if possible and if it saves at least 3/4 of the rays of these meshes, else own\n"
+     "  rays to lamps do not count"}};
 
 } // namespace
 
@@ -73,7 +74,8 @@ void add_instances(CLI::App* command, InstanceArguments& arguments) {
         .detail(explained(kInstanceModes).substr(1))
         .number("error", 0, 1e9,
                 "bake an instance as own if its relative L2 error is above X, 0 to 1e9 [0.1]\n"
-                "  0.1: 10 %; measured under five built-in soft skies and under --lights",
+                "  0.1: 10 %; the largest of the errors under five built-in soft skies together,\n"
+                "  under each FILE of --lights, and under all lamps together",
                 [&arguments](double error) {
                     arguments.error = error;
                     arguments.settings = true;
@@ -93,8 +95,8 @@ void add_instances(CLI::App* command, InstanceArguments& arguments) {
         "light under which errors of shared instances are measured\n"
         "needs --instances shared or auto; five built-in soft skies are always tested too\n"
         "light file: at least of the order of --order\n"
-        "an instance is baked as own if its error under a FILE, or under the five skies together, is\n"
-        "  above error=X of --instances; default: only the skies are tested");
+        "an instance is baked as own if its error under a FILE, under the five skies together, or\n"
+        "  under all lamps together is above error=X of --instances; default: no FILE");
     add_suns(
         command, arguments.suns,
         std::string("number of suns of --lights for which a renderer has shadow maps\n"

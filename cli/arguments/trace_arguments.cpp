@@ -11,7 +11,7 @@ namespace {
 constexpr Choice<BakeMethod> kBakeMethods[] = {
     {"trace", BakeMethod::trace, "rays, traced by the processor of --device"},
     {"raster", BakeMethod::raster,
-     "depth maps from --rays N directions, by OpenGL 4.5, for direct light of the sky at surfaces\n"
+     "depth maps from --rays N directions, by OpenGL 4.5, for direct light of the sky\n"
      "  --device auto: a hardware GPU, else error; gpu: also a software driver; others: error"}};
 
 } // namespace

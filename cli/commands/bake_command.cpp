@@ -196,7 +196,7 @@ void add_lamps(CLI::App* command, LampOptions& lamps) {
                [&lamps](const std::string& name) { lamps.mode = chosen("--lamps", kLampModes, name); })
         .detail("lamps: lights of the scene (KHR_lights_punctual) and emissive materials\n"
                 "  lamps of the same name and the lamps of a group are one lamp; at most 64 lamps\n"
-                "--instances shared: only none, if the scene contains lamps")
+                "--instances shared: lamps are traced at the vertices of all instances")
         .detail(explained(kLampModes).substr(1))
         .number("radius", 0, 1e9, "radius of point and spot lights, metres; larger: softer shadows [0]",
                 [&lamps](double metres) { lamps.radius = metres; })
@@ -227,10 +227,10 @@ void add_measurement(CLI::App* command, BakeOptions& options) {
             "measure light at the vertices, or at points between them\n"
             "not with --texels\n"
             "with --refine: auto acts as surface; vertex is an error\n"
-            "with --target-error, --method raster and shared instances: auto acts as vertex\n"
-            "  surface: --instances fits shared transfer, but its factors to light at vertices");
+            "with --target-error or --method raster, or if instances share transfer: auto acts as vertex\n"
+            "  surface fits shared transfer to the surface, but not the 52 bytes of an instance");
     add_method(command, options.tracer,
-               "bounces, lamps, probes of --volume, errors for --refine, light that --instances shares");
+               "bounces, lamps, probes, errors for --refine, instances that share transfer");
 }
 
 void add_refinement(CLI::App* command, BakeArguments& a) {

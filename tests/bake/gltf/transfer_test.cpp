@@ -508,15 +508,16 @@ TEST(TransferInGltf, SetsOfAllReceiversShareAFile) {
     };
     const Scene scene = extract_scene(parsed());
     const BakedTransfer vertices = random_bake(scene, 3, 1);
-    for (std::size_t p = 0; p < scene.primitives.size(); ++p) {
-        const VertexArray& array = scene.vertex_arrays[scene.primitives[p].vertices];
+    std::vector<std::size_t> views;
+    for (const VertexArray& array : scene.vertex_arrays) {
         const std::size_t dimension = vertices.transfer.dimension();
         const auto vectors = std::span(vertices.transfer.vectors)
                                  .subspan(array.first_receiver * dimension, array.size() * dimension);
-        const std::size_t view = file.view(std::as_bytes(vectors));
-        file.json["meshes"][0]["primitives"][p]["extensions"]["PRTKIT_transfer"]["vectors"] = {
-            {"bufferView", view}};
+        views.push_back(file.view(std::as_bytes(vectors)));
     }
+    for (std::size_t p = 0; p < scene.primitives.size(); ++p)
+        file.json["meshes"][0]["primitives"][p]["extensions"]["PRTKIT_transfer"]["vectors"] = {
+            {"bufferView", views[scene.primitives[p].vertices]}};
     file.json["extensions"]["PRTKIT_transfer"]["sets"].push_back(
         {{"receivers", "vertices"},
          {"coding", "raw"},
