@@ -80,7 +80,8 @@ CLI::Option* add_texels(CLI::App* command, TexelArguments& a, const std::string&
             .detail("  new set: the TEXCOORD after the last existing one; its number is printed")
             .detail("  unusable: overlaps within an object (node), with atlas=one also between objects,")
             .detail(
-                "    has no area, crosses the border of the texture, or needs more than 8192 texels for N/m")
+                "    has no area, crosses the border of the texture, or needs more than 8192 texels for N/m\n"
+                "  back sides that --back-sides auto adds overlap the front sides: they need a new set")
             .detail("  without unwrap, a missing or unusable set is an error")
             .detail("  with unwrap, N is an error if the new charts do not fit")
             .whole_number("uv", 0, 7, "set of texture coordinates to use, TEXCOORD_N, 0 to 7 [1]",
