@@ -88,6 +88,18 @@ std::vector<glm::vec3> lamp_responses(const ClusterLighting& relighter) {
     return responses;
 }
 
+/// Returns the constants of all rows under lamps alone, by the lamp terms of the transfer.
+std::vector<glm::vec4> lamp_constants(const ClusterLighting& relighter,
+                                      std::span<const glm::vec3> strengths) {
+    Lighting lighting{{relighter.order(),
+                       std::vector<glm::vec3>(static_cast<std::size_t>(coefficient_count(relighter.order())),
+                                              glm::vec3(0))}};
+    lighting.lamps.assign(strengths.begin(), strengths.end());
+    std::vector<glm::vec4> constants(relighter.rows());
+    relighter.update(lighting, constants);
+    return constants;
+}
+
 } // namespace
 
 ConstantRows rows_of(const ClusteredTransfer& transfer, std::size_t first, std::size_t count) {
@@ -122,7 +134,8 @@ InstanceRelighter::InstanceRelighter(const ClusteredTransfer& transfer,
     if (transfer.bases.layout.lamps() > 0)
         responses_ = lamp_responses(relighter_);
     for (std::size_t i = 0; i < instances_.size(); ++i) {
-        check_instance_lamps(transfer.bases.layout, instances_[i].placed);
+        if (!instances_[i].placed.lamps.empty())
+            check_instance_lamps(transfer.bases.layout, instances_[i].placed);
         of_[rotations_.of[i]].push_back(static_cast<std::uint32_t>(i));
         begins_.push_back(size_);
         size_ += 3 * std::size_t{instances_[i].rows.count};
@@ -153,6 +166,10 @@ void InstanceRelighter::update(const Lighting& lighting, std::span<glm::vec4> co
     std::array<Lighting, kInstanceModes> lightings = modes_.lightings(lighting);
     for (Lighting& mode : lightings) // the lamps have their own light at instances
         mode.lamps.assign(lamps, glm::vec3(0));
+    const bool drawn_once = std::ranges::any_of(
+        instances_, [](const RelitInstance& instance) { return instance.placed.lamps.empty(); });
+    const std::vector<glm::vec4> of_lamps =
+        lamps > 0 && drawn_once ? lamp_constants(relighter_, lighting.lamps) : std::vector<glm::vec4>();
     parallel_for(of_.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
         ModeConstants modes;
         modes.fill(std::vector<glm::vec4>(relighter_.rows()));
@@ -169,8 +186,13 @@ void InstanceRelighter::update(const Lighting& lighting, std::span<glm::vec4> co
                     const std::size_t of_model = instances_[i].rows.first + row;
                     const auto colors = constants.subspan(begins_[i] + 3 * row).first<3>();
                     write_row(instances_[i].placed.factors, modes, of_model, colors);
-                    if (lamps > 0)
+                    if (lamps == 0)
+                        continue;
+                    if (!instances_[i].placed.lamps.empty())
                         add_lamps(light, &responses_[of_model * kInstanceLampFunctions], colors);
+                    else
+                        for (int c = 0; c < 3; ++c)
+                            colors[static_cast<std::size_t>(c)].w += of_lamps[of_model][c];
                 }
             }
         }

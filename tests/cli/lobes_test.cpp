@@ -122,11 +122,11 @@ TEST_F(LobesCommand, MeasuresLightWithATargetErrorAndByDepthMaps) {
         EXPECT_EQ(outcome.status, 0) << outcome.err;
         return read_json(folder / "lobes.json");
     };
-    const int coarse = figures({"--target-error", "0.2"})["rays_per_receiver"],
-              fine = figures({"--target-error", "0.1"})["rays_per_receiver"];
-    EXPECT_GT(fine, 2 * coarse); // four times, without the minimum number of rays
-    const double rays = figures({"--rays", "256"})["lit_rms"],
-                 maps = figures({"--rays", "256", "--method", "raster", "--method", "resolution=256",
+    const int coarse = figures({"--target-error", "0.1"})["rays_per_receiver"],
+              fine = figures({"--target-error", "0.03"})["rays_per_receiver"];
+    EXPECT_GT(fine, 2 * coarse); // eleven times, without the minimum number of rays
+    const double rays = figures({"--rays", "128"})["lit_rms"],
+                 maps = figures({"--rays", "128", "--method", "raster", "--method", "resolution=128",
                                  "--device", "gpu"})["lit_rms"];
     EXPECT_NEAR(maps, rays, 0.3 * rays);
     EXPECT_EQ(
