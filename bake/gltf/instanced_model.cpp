@@ -1,8 +1,10 @@
 // Reads a file in two forms: with one node per instance, and with meshes as their transfer is stored.
 #include "bake/gltf/contents.h"
 #include "bake/gltf/encode_glb.h"
+#include "bake/gltf/write_set.h"
 #include "prt/core/error.h"
 #include "prt/gltf/transfer_gltf.h"
+#include "runtime/transfer/instance_lamps.h"
 
 namespace prt {
 
@@ -19,6 +21,12 @@ InstancedModel read_instanced(const GltfDocument& document, const Scene& scene,
         throw Error(path.string() +
                     ": its instances share transfer, but the file contains no transfer; run prt bake again");
     model.instances = read_instances(document, scene, model.stored);
+    const TransferLayout& layout =
+        model.compressed ? model.compressed->transfer.bases.layout : model.baked->transfer.layout;
+    named(document, [&](const GltfContents&) {
+        for (const FileInstance& instance : model.instances)
+            check_instance_lamps(layout, instance.placed);
+    });
     return model;
 }
 

@@ -26,6 +26,7 @@
 #include "runtime/load/vertex_transfer.h"
 #include "runtime/support/file.h"
 #include "runtime/support/lfs_pointer.h"
+#include "runtime/transfer/instance_lamps.h"
 
 #include <algorithm>
 #include <map>
@@ -118,6 +119,9 @@ Model read_contents(GltfData& data) {
     model.vertices = read_clustered(data, model.scene);
     if (model.vertices)
         mark_media(model.scene, model.vertices->record);
+    for (const FileInstance& instance : model.instances)
+        if (model.vertices)
+            check_instance_lamps(model.vertices->transfer.bases.layout, instance.placed);
     model.lightmap = read_encoded_lightmap(data, model.scene,
                                            data.json.contains("images") ? data.json["images"].size() : 0,
                                            [&](std::size_t image) { return image_bytes(data, image); });

@@ -321,6 +321,22 @@ TEST(Instances, BytesOfLampLightAreClose) {
     EXPECT_THROW(coded(bad), Error);
 }
 
+/// A mesh that is drawn once has lamp terms in its transfer.
+TEST(Instances, MeshesDrawnOnceAreLitByTheirLampTerms) {
+    Draw draw;
+    const ClusteredTransfer mesh = clustered_mesh(draw);
+    const Lighting lighting{draw.light(), draw.light(), {draw.vector(), draw.vector()}};
+    const InstanceBox box{draw.vector(), glm::abs(draw.vector()) + 0.1f};
+    const RelitInstance once{{open_factors(), glm::dmat3(1), box}, rows_of(mesh, 0, 12)};
+    const InstanceRelighter relighter(mesh, std::span(&once, 1), 0);
+    std::vector<glm::vec4> computed(relighter.size());
+    relighter.update(lighting, computed);
+    const std::vector<glm::vec4> table = relighter.table();
+    std::vector<glm::vec3> measured(12);
+    evaluate(mesh, constants_at(computed, table[0], table[1], draw.vector(), once.rows), measured);
+    expect_near(measured, exit_radiance(decode(mesh), lighting), 1e-3f);
+}
+
 TEST(Instances, NeedLightOfEachLamp) {
     Draw draw;
     const ClusteredTransfer mesh = clustered_mesh(draw);

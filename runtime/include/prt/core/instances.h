@@ -227,7 +227,9 @@ struct PlacedInstance {
     InstanceFactors factors; ///< in the axes of the world
     glm::dmat3 rotation{1};  ///< maps vectors of the mesh's frame to the world's; without scale
     InstanceBox box;         ///< box of the mesh, in the mesh's frame
-    std::vector<InstanceLampLight> lamps = {}; ///< [lamps of the transfer]
+    /// [lamps of the transfer] light of each lamp. Empty for a mesh that is drawn once, at the position of
+    /// its bake: InstanceRelighter then lights it by the lamp terms of its transfer.
+    std::vector<InstanceLampLight> lamps = {};
 };
 
 /// Writes the transfer vectors of an instance, in the frame of the world, to `vectors`
@@ -293,8 +295,8 @@ public:
     /// degrees: all these instances together need at most `yaws` rotated lightings. For all other instances,
     /// and for all instances if `yaws` is 0, the error of the rotation is at most 0.01 degrees
     /// (`instance_rotations`). Throws `Error` if the layout of `transfer` is invalid (`check_layout`), if
-    /// `transfer` has several outputs, if an instance has not one light for each lamp of `transfer`, or if
-    /// the constants exceed 4 GB.
+    /// `transfer` has several outputs, if an instance has lamps, but not one light for each lamp of
+    /// `transfer`, or if the constants exceed 4 GB.
     InstanceRelighter(const ClusteredTransfer& transfer, std::span<const RelitInstance> instances,
                       int yaws = 64);
 
