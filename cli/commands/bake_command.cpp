@@ -229,8 +229,7 @@ void add_measurement(CLI::App* command, BakeOptions& options) {
             "with --refine: auto acts as surface; vertex is an error\n"
             "with --target-error or --method raster, or if instances share transfer: auto acts as vertex\n"
             "  surface fits shared transfer to the surface, but not the 52 bytes of an instance");
-    add_method(command, options.tracer,
-               "bounces, lamps, probes, errors for --refine, shared instances");
+    add_method(command, options.tracer, "bounces, lamps, probes, errors for --refine, shared instances");
 }
 
 void add_refinement(CLI::App* command, BakeArguments& a) {
