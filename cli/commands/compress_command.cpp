@@ -159,6 +159,10 @@ Bake load_bake(const Path& path, const GltfOptions& reading) {
     std::optional<BakedVolume> volume = read_volume(document, scene);
     discard_volume(document);
     Bake bake = bake_of_surfaces(std::move(document), std::move(scene), path);
+    about(path, [&] {
+        for (const FileInstance& instance : instances)
+            check_instance_lamps(bake.stored.transfer.layout, instance.placed);
+    });
     bake.volume = std::move(volume);
     bake.instances = std::move(instances);
     return bake;
