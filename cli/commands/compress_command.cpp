@@ -28,6 +28,7 @@
 #include "prt/gltf/transfer_gltf.h"
 #include "prt/render/lightmap_file.h"
 #include "runtime/load/mesh_edges.h"
+#include "runtime/transfer/instance_lamps.h"
 
 #include <fmt/ranges.h>
 
