@@ -173,9 +173,9 @@ void erase_views(GltfContents& contents, const std::set<std::size_t>& views) {
     });
 }
 
-/// Extensions for transfer of surfaces, at the top level and at primitives.
-constexpr const char* kSurfaceExtensions[] = {kTransferExtension, kLobeExtension, kFormerExtensions[0],
-                                              kFormerExtensions[1], kFormerExtensions[2]};
+/// Extensions for transfer of surfaces beside kTransferExtension, at the top level and at primitives.
+constexpr const char* kSurfaceExtensions[] = {kLobeExtension, kFormerExtensions[0], kFormerExtensions[1],
+                                              kFormerExtensions[2]};
 
 /// Removes the extension `name` of `owner`, if it has one; calls `take` with its value first.
 template <class Take>
@@ -316,8 +316,14 @@ void GltfContents::drop_unused_extensions() {
 }
 
 void GltfContents::remove_volume() {
+    bool found = false;
     std::set<std::size_t> views;
-    take_sets(json, true, [&](Json& set) { for_each_object(set, collect_views(views)); });
+    take_sets(json, true, [&](Json& set) {
+        found = true;
+        for_each_object(set, collect_views(views));
+    });
+    if (!found)
+        return;
     remove_unused({}, std::move(views));
     drop_unused_extensions();
 }
@@ -330,9 +336,9 @@ void GltfContents::remove_transfer() {
     };
     take_sets(json, false, take);
     for (const char* name : kSurfaceExtensions)
-        if (name != kTransferExtension)
-            take_extension(json, name, take);
+        take_extension(json, name, take);
     for_each_primitive(json, [&](Json& primitive) {
+        take_extension(primitive, kTransferExtension, take);
         for (const char* name : kSurfaceExtensions)
             take_extension(primitive, name, take);
         Json kept = Json::object();
@@ -354,8 +360,7 @@ void GltfContents::remove_transfer() {
     remove_images(*this, std::move(of_words), views);
     remove_unused(std::move(accessors), std::move(views));
     for (const char* name : kSurfaceExtensions)
-        if (name != kTransferExtension)
-            drop_extension(json, name);
+        drop_extension(json, name);
     drop_unused_extensions();
 }
 

@@ -4,7 +4,7 @@
 #include "bake/gltf/write_set.h"
 #include "prt/core/error.h"
 #include "prt/gltf/transfer_gltf.h"
-#include "runtime/transfer/instance_lamps.h"
+#include "runtime/load/shared_instances.h"
 
 namespace prt {
 
@@ -23,10 +23,7 @@ InstancedModel read_instanced(const GltfDocument& document, const Scene& scene,
     model.instances = read_instances(document, scene, model.stored);
     const TransferLayout& layout =
         model.compressed ? model.compressed->transfer.bases.layout : model.baked->transfer.layout;
-    named(document, [&](const GltfContents&) {
-        for (const FileInstance& instance : model.instances)
-            check_instance_lamps(layout, instance.placed);
-    });
+    named(document, [&](const GltfContents&) { check_instance_lamps(layout, model.instances); });
     return model;
 }
 

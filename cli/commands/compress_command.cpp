@@ -28,7 +28,7 @@
 #include "prt/gltf/transfer_gltf.h"
 #include "prt/render/lightmap_file.h"
 #include "runtime/load/mesh_edges.h"
-#include "runtime/transfer/instance_lamps.h"
+#include "runtime/load/shared_instances.h"
 
 #include <fmt/ranges.h>
 
@@ -160,10 +160,7 @@ Bake load_bake(const Path& path, const GltfOptions& reading) {
     std::optional<BakedVolume> volume = read_volume(document, scene);
     discard_volume(document);
     Bake bake = bake_of_surfaces(std::move(document), std::move(scene), path);
-    about(path, [&] {
-        for (const FileInstance& instance : instances)
-            check_instance_lamps(bake.stored.transfer.layout, instance.placed);
-    });
+    about(path, [&] { check_instance_lamps(bake.stored.transfer.layout, instances); });
     bake.volume = std::move(volume);
     bake.instances = std::move(instances);
     return bake;

@@ -160,13 +160,12 @@ void run(LobesArguments a, Session& session) {
             print_notices(a.model.string(),
                           {"no vertex moves in these poses; use prt bake for a model that does not move"});
         const Made made = make_lobes(a, model, poses, session);
-        const int rays = made.mean.rays_per_vertex;
         report = report_of(a, made, poses.size());
         measure_frames(a, model, made, session, report);
         write_lobes(document, model.scene(),
                     {made.lobes,
                      {.poses = static_cast<int>(poses.size()),
-                      .rays = rays,
+                      .rays = made.mean.rays_per_vertex,
                       .bounces = a.bake.bounces,
                       .seed = a.bake.seed}});
     });

@@ -26,7 +26,6 @@
 #include "runtime/load/vertex_transfer.h"
 #include "runtime/support/file.h"
 #include "runtime/support/lfs_pointer.h"
-#include "runtime/transfer/instance_lamps.h"
 
 #include <algorithm>
 #include <map>
@@ -117,11 +116,10 @@ Model read_contents(GltfData& data) {
     model.scene = extract_geometry(data, range).scene;
     model.instances = placed_instances(std::move(instances), model.scene, data.file_bytes);
     model.vertices = read_clustered(data, model.scene);
-    if (model.vertices)
+    if (model.vertices) {
         mark_media(model.scene, model.vertices->record);
-    for (const FileInstance& instance : model.instances)
-        if (model.vertices)
-            check_instance_lamps(model.vertices->transfer.bases.layout, instance.placed);
+        check_instance_lamps(model.vertices->transfer.bases.layout, model.instances);
+    }
     model.lightmap = read_encoded_lightmap(data, model.scene,
                                            data.json.contains("images") ? data.json["images"].size() : 0,
                                            [&](std::size_t image) { return image_bytes(data, image); });

@@ -7,6 +7,7 @@
 #include "runtime/load/even_placement.h"
 #include "runtime/load/level_nodes.h"
 #include "runtime/load/transfer_json.h"
+#include "runtime/transfer/instance_lamps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -136,6 +137,11 @@ std::vector<MeshInstance> mesh_instances(const GltfData& data) {
     }
     std::ranges::sort(instances, {}, [](const MeshInstance& one) { return one.instance.node; });
     return instances;
+}
+
+void check_instance_lamps(const TransferLayout& layout, std::span<const FileInstance> instances) {
+    for (const FileInstance& instance : instances)
+        check_instance_lamps(layout, instance.placed);
 }
 
 std::vector<RelitInstance> relit_instances(std::span<const FileInstance> instances, const Scene& stored,

@@ -5,6 +5,7 @@
 #include "prt/load/model.h"
 #include "runtime/load/gltf_data.h"
 
+#include <span>
 #include <vector>
 
 namespace prt {
@@ -28,5 +29,8 @@ struct MeshInstance {
 /// Returns the visible instances that share transfer, in ascending order of their nodes. The nodes must be
 /// expanded (`expand_instances`), and draw their meshes themselves.
 std::vector<MeshInstance> mesh_instances(const GltfData& data);
+
+/// Throws `Error` unless each instance has the light of each lamp of `layout`, that of its transfer.
+void check_instance_lamps(const TransferLayout& layout, std::span<const FileInstance> instances);
 
 } // namespace prt

@@ -4,6 +4,7 @@
 
 #include "prt/bake/instance_bake.h"
 
+#include "bake/pipeline/equal_rays.h"
 #include "bake/pipeline/record.h"
 #include "bake/plan/check_options.h"
 #include "bake/plan/memory.h"
@@ -13,8 +14,6 @@
 #include "bake/tracers/make_tracer.h"
 #include "prt/core/error.h"
 #include "runtime/support/stopwatch.h"
-
-#include <fmt/core.h>
 
 #include <algorithm>
 #include <map>
@@ -89,6 +88,20 @@ public:
     }
 
 private:
+    /// Calls `take(stored, flat)` with the receivers, in both scenes, of each vertex that is drawn once.
+    template <class Take>
+    void for_each_own_vertex(const Take& take) const {
+        const std::vector<std::size_t> flat = flat_arrays(scene_);
+        for (std::size_t a = 0; a < flat.size(); ++a) {
+            if (flat[a] == ~std::size_t{0})
+                continue;
+            const std::size_t first = scene_.scene.vertex_arrays[flat[a]].first_receiver;
+            const VertexArray& vertices = scene_.stored.vertex_arrays[a];
+            for (std::size_t v = 0; v < vertices.size(); ++v)
+                take(vertices.first_receiver + v, first + v);
+        }
+    }
+
     bool has_lamps() const {
         return with_lamps_.lamps.mode != LampMode::none &&
                !choose_lamps(traced_.surfaces(), with_lamps_.lamps).empty();
@@ -102,18 +115,9 @@ private:
         Transfer all = zero_transfer(layout, transfer.receivers());
         for (std::size_t r = 0; r < all.receivers(); ++r)
             std::ranges::copy(transfer.vector(r), all.vector(r).begin());
-        const std::vector<std::size_t> flat = flat_arrays(scene_);
-        for (std::size_t a = 0; a < flat.size(); ++a) {
-            if (flat[a] == ~std::size_t{0})
-                continue;
-            const std::size_t first = scene_.scene.vertex_arrays[flat[a]].first_receiver;
-            const VertexArray& vertices = scene_.stored.vertex_arrays[a];
-            for (std::size_t v = 0; v < vertices.size(); ++v)
-                std::ranges::copy(lamps.numbers(first + v),
-                                  all.vector(vertices.first_receiver + v)
-                                      .last(layout.dimension() - transfer.dimension())
-                                      .begin());
-        }
+        for_each_own_vertex([&](std::size_t stored, std::size_t flat) {
+            std::ranges::copy(lamps.numbers(flat), all.vector(stored).subspan(transfer.dimension()).begin());
+        });
         transfer = std::move(all);
         result_.lamp_errors = std::move(lamps.errors);
         result_.instances.lamps = std::move(lamps.lights);
@@ -145,17 +149,10 @@ private:
         const auto to = [&](const VertexArray& vertices) {
             return all.vectors.begin() + static_cast<std::ptrdiff_t>(vertices.first_receiver * dimension);
         };
-        const std::vector<std::size_t> flat = flat_arrays(scene_);
-        for (std::size_t a = 0; a < flat.size(); ++a) {
-            if (flat[a] == ~std::size_t{0})
-                continue;
-            const std::size_t first = scene_.scene.vertex_arrays[flat[a]].first_receiver;
-            const VertexArray& vertices = scene_.stored.vertex_arrays[a];
-            for (std::size_t v = 0; v < vertices.size(); ++v)
-                if (const std::uint32_t r = light.receivers().own_of[first + v]; r != kNoReceiver)
-                    std::ranges::copy(own.vector(r),
-                                      to(vertices) + static_cast<std::ptrdiff_t>(v * dimension));
-        }
+        for_each_own_vertex([&](std::size_t stored, std::size_t flat) {
+            if (const std::uint32_t r = light.receivers().own_of[flat]; r != kNoReceiver)
+                std::ranges::copy(own.vector(r), all.vector(stored).begin());
+        });
         for (std::size_t m = 0; m < meshes_.size(); ++m) {
             const Transfer mesh = stored_transfer(meshes_[m], direct_channels);
             std::size_t next = 0;
@@ -187,8 +184,7 @@ private:
         for (const SharedMeshBake& mesh : meshes_)
             sampling = std::max(sampling, mesh.sampling_error);
         if (options_.target_error && sampling > *options_.target_error)
-            statistics.notices.push_back(
-                fmt::format("the target error was not reached with {} rays per receiver", kMaxRays));
+            statistics.notices.push_back(missed_target());
         const double rounding = float16_rounding_error(baked.transfer, receiver_areas(scene_.stored));
         baked.storage = storage_for(options_.memory.storage, {.rounding = rounding, .sampling = sampling},
                                     statistics.notices);
