@@ -10,7 +10,6 @@
 #include "bake/plan/transfer_terms.h"
 #include "bake/scene/positions_without_area.h"
 #include "bake/tracers/make_tracer.h"
-#include "runtime/load/light_passing.h"
 #include "runtime/support/stopwatch.h"
 
 #include <algorithm>
@@ -132,9 +131,7 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
     result.errors = std::move(found);
     result.statistics.gather.bytes_moved = product ? product->bytes_moved() : 0;
     result.baked.record.fitted = measured.fit.has_value();
-    for (std::size_t m = 0; m < media.size(); ++m)
-        if (media[m] && !has_medium(scene.materials[m]))
-            result.baked.record.media.push_back(lamp_name(scene, m));
+    result.baked.record.media = added_media(scene, media);
     seconds.all = all.seconds();
     result.statistics.seconds = seconds;
     progress.update(1);

@@ -5,6 +5,7 @@
 #include "bake/scene/material_notices.h"
 #include "bake/scene/small_objects.h"
 #include "prt/core/error.h"
+#include "runtime/load/light_passing.h"
 
 #include <fmt/core.h>
 
@@ -87,6 +88,14 @@ Media choose_media(const Scene& scene, const BakeOptions& options) {
             check_medium(*medium, scene.materials[m].name);
         }
     return media;
+}
+
+std::vector<std::string> added_media(const Scene& scene, const Media& media) {
+    std::vector<std::string> names;
+    for (std::size_t m = 0; m < media.size(); ++m)
+        if (media[m] && !has_medium(scene.materials[m]))
+            names.push_back(lamp_name(scene, m));
+    return names;
 }
 
 TraceScene trace_scene(const Scene& scene, const Media& media, const BakeOptions& options) {

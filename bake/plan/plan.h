@@ -22,6 +22,10 @@ using Media = std::vector<std::optional<Medium>>;
 /// Returns the media of the scene's materials; `options` may replace them.
 Media choose_media(const Scene& scene, const BakeOptions& options);
 
+/// Returns the names of the materials with a medium in `media` that the file does not describe, for
+/// BakeRecord::media.
+std::vector<std::string> added_media(const Scene& scene, const Media& media);
+
 /// Loads the textures that a bake of `scene` needs.
 TraceScene trace_scene(const Scene& scene, const Media& media, const BakeOptions& options);
 

@@ -196,6 +196,7 @@ private:
                         .backend = tracer.backend(),
                         .receivers = receivers_id(scene_.scene),
                         .sampling_error = sampling,
+                        .media = added_media(scene_.scene, choose_media(scene_.scene, options_)),
                         .fitted = options_.fit == FitMode::surface};
     }
 
