@@ -536,8 +536,8 @@ TEST_F(SharedInstances, ScatterLightInMedia) {
         EXPECT_EQ(read_json(folder / "bake.json")["instances"]["shared"], 3);
         EXPECT_GT(error_of({"--subsurface", "marble", "--metres-per-unit", "0.0025"}, bounces), 0.04);
     }
-    const auto media_of = [&](const char* file) {
-        return set_of(read_glb(folder / file).json, "vertices").at("bake").at("media");
+    const auto media_of = [&](const char* name) {
+        return set_of(read_glb(folder / name).json, "vertices").at("bake").at("media");
     };
     EXPECT_EQ(media_of("own.glb").size(), 1u);
     EXPECT_EQ(media_of("shared.glb"), media_of("own.glb")); // so that renderers add no suns to them
