@@ -67,7 +67,7 @@
 // Images.
 #define PRT_IMAGE_TEXELS 3 // differs from the bindings of its shader, because Vulkan has one range for all
 
-// Weights of the probes of a volume, defined in runtime/transfer/volume_weights.h.
+// Weights of the probes of a volume, defined in runtime/domains/volume_weights.h.
 #define PRT_VOLUME_NORMAL_BIAS 0.25
 #define PRT_VOLUME_VISIBILITY_CELLS 4.0
 #define PRT_VOLUME_VISIBILITY_FULL 0.8

@@ -2,9 +2,9 @@
 #include "bake/gltf/contents.h"
 
 #include "prt/core/error.h"
+#include "runtime/core/support/printable.h"
 #include "runtime/load/own_attributes.h"
 #include "runtime/load/receiver_sets.h"
-#include "runtime/support/printable.h"
 
 #include <algorithm>
 #include <functional>

@@ -12,6 +12,10 @@
 #include "bake/gltf/side_files.h"
 #include "bake/gltf/smooth_primitives.h"
 #include "prt/core/error.h"
+#include "runtime/core/support/counted.h"
+#include "runtime/core/support/file.h"
+#include "runtime/core/support/lfs_pointer.h"
+#include "runtime/core/support/printable.h"
 #include "runtime/load/accessor.h"
 #include "runtime/load/allowance.h"
 #include "runtime/load/check_data.h"
@@ -25,10 +29,6 @@
 #include "runtime/load/meshopt_views.h"
 #include "runtime/load/receiver_sets.h"
 #include "runtime/load/supported_extensions.h"
-#include "runtime/support/counted.h"
-#include "runtime/support/file.h"
-#include "runtime/support/lfs_pointer.h"
-#include "runtime/support/printable.h"
 
 #include <algorithm>
 #include <array>

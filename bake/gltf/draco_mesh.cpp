@@ -2,8 +2,8 @@
 #include "bake/gltf/draco_mesh.h"
 
 #include "prt/core/error.h"
+#include "runtime/core/support/counted.h"
 #include "runtime/load/accessor.h"
-#include "runtime/support/counted.h"
 
 #include <draco/compression/decode.h>
 #include <draco/compression/point_cloud/point_cloud_decoder.h>

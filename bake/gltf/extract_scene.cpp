@@ -6,7 +6,7 @@
 #include "bake/gltf/lights.h"
 #include "bake/gltf/material.h"
 #include "prt/core/error.h"
-#include "runtime/support/printable.h"
+#include "runtime/core/support/printable.h"
 
 #include <string>
 #include <utility>

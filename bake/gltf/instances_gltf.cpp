@@ -2,10 +2,10 @@
 #include "prt/gltf/transfer_gltf.h"
 
 #include "bake/gltf/write_set.h"
+#include "runtime/core/support/parallel.h"
 #include "runtime/load/allowance.h"
 #include "runtime/load/node_transforms.h"
 #include "runtime/load/shared_instances.h"
-#include "runtime/support/parallel.h"
 
 #include <algorithm>
 #include <cmath>

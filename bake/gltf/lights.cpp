@@ -3,8 +3,8 @@
 #include "bake/gltf/lights.h"
 
 #include "prt/core/error.h"
+#include "runtime/core/support/counted.h"
 #include "runtime/load/transfer_json.h"
-#include "runtime/support/counted.h"
 
 #include <glm/geometric.hpp>
 

@@ -3,8 +3,8 @@
 
 #include "bake/gltf/lights.h"
 #include "prt/core/error.h"
-#include "runtime/support/counted.h"
-#include "runtime/support/printable.h"
+#include "runtime/core/support/counted.h"
+#include "runtime/core/support/printable.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,9 +2,9 @@
 #include "bake/gltf/read_animations.h"
 
 #include "prt/core/error.h"
+#include "runtime/core/support/counted.h"
 #include "runtime/load/accessor.h"
 #include "runtime/load/allowance.h"
-#include "runtime/support/counted.h"
 
 #include <algorithm>
 #include <cmath>

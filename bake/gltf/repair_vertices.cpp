@@ -2,11 +2,11 @@
 #include "bake/gltf/repair_vertices.h"
 
 #include "prt/core/error.h"
+#include "runtime/core/support/counted.h"
 #include "runtime/load/accessor.h"
 #include "runtime/load/allowance.h"
 #include "runtime/load/triangle_normal.h"
 #include "runtime/load/triangles.h"
-#include "runtime/support/counted.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,9 +2,9 @@
 #include "bake/gltf/side_files.h"
 
 #include "prt/core/error.h"
-#include "runtime/support/file.h"
-#include "runtime/support/lfs_pointer.h"
-#include "runtime/support/printable.h"
+#include "runtime/core/support/file.h"
+#include "runtime/core/support/lfs_pointer.h"
+#include "runtime/core/support/printable.h"
 
 #include <algorithm>
 #include <cctype>

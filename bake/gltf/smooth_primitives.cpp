@@ -4,9 +4,9 @@
 
 #include "bake/gltf/make_meshes_unique.h"
 #include "bake/gltf/smooth_normals.h"
+#include "runtime/core/support/counted.h"
 #include "runtime/load/accessor.h"
 #include "runtime/load/triangles.h"
-#include "runtime/support/counted.h"
 
 #include <sstream>
 

@@ -1,8 +1,8 @@
 // Writes the members that sets of all receivers share.
 #include "bake/gltf/write_set.h"
 
-#include "runtime/support/bits.h"
-#include "runtime/transfer/evaluate_range.h"
+#include "runtime/core/support/bits.h"
+#include "runtime/core/transfer/evaluate_range.h"
 
 #include <glm/gtc/packing.hpp>
 

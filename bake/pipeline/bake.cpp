@@ -10,7 +10,7 @@
 #include "bake/plan/transfer_terms.h"
 #include "bake/scene/positions_without_area.h"
 #include "bake/tracers/make_tracer.h"
-#include "runtime/support/stopwatch.h"
+#include "runtime/core/support/stopwatch.h"
 
 #include <algorithm>
 #include <memory>

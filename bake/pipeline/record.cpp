@@ -3,7 +3,7 @@
 #include "bake/pipeline/record.h"
 
 #include "prt/core/error.h"
-#include "runtime/support/counted.h"
+#include "runtime/core/support/counted.h"
 
 #include <fmt/core.h>
 #include <glm/gtc/packing.hpp>

@@ -7,7 +7,7 @@
 #include "prt/bake/bake_options.h"
 #include "prt/core/error.h"
 #include "prt/core/sh_basis.h"
-#include "runtime/support/counted.h"
+#include "runtime/core/support/counted.h"
 
 #include <fmt/core.h>
 

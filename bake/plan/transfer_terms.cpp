@@ -5,7 +5,7 @@
 
 #include "prt/core/error.h"
 #include "prt/core/sh_basis.h"
-#include "runtime/support/printable.h"
+#include "runtime/core/support/printable.h"
 
 #include <fmt/core.h>
 

@@ -10,7 +10,7 @@
 #include "bake/trace_gpu/touching_triangles.h"
 #include "prt/core/error.h"
 #include "prt/core/sh.h"
-#include "runtime/support/stopwatch.h"
+#include "runtime/core/support/stopwatch.h"
 
 #include <epoxy/gl.h>
 #include <glm/gtc/quaternion.hpp>

@@ -2,7 +2,7 @@
 
 #include "bake/reference/back_reach.h"
 
-#include "runtime/support/parallel.h"
+#include "runtime/core/support/parallel.h"
 
 #include <glm/geometric.hpp>
 

@@ -3,7 +3,7 @@
 #include "bake/reference/light_paths.h"
 
 #include "bake/scene/transmittance.h"
-#include "runtime/support/tangent_frame.h"
+#include "runtime/core/support/tangent_frame.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -3,7 +3,7 @@
 #include "bake/reference/path_tracer.h"
 
 #include "bake/reference/light_paths.h"
-#include "runtime/support/parallel.h"
+#include "runtime/core/support/parallel.h"
 
 #include <glm/geometric.hpp>
 

@@ -3,8 +3,8 @@
 #include "bake/reference/ray_renderer.h"
 
 #include "bake/reference/sun_light.h"
+#include "runtime/core/support/parallel.h"
 #include "runtime/render/lightmap_lookup.h"
-#include "runtime/support/parallel.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -7,7 +7,7 @@
 #include "bake/scene/transmittance.h"
 #include "prt/core/error.h"
 #include "prt/core/light.h"
-#include "runtime/support/counted.h"
+#include "runtime/core/support/counted.h"
 
 #include <fmt/core.h>
 #include <glm/geometric.hpp>

@@ -9,7 +9,7 @@
 #include "bake/trace/each_receiver.h"
 #include "prt/bake/bake_options.h"
 #include "prt/core/sh.h"
-#include "runtime/support/stopwatch.h"
+#include "runtime/core/support/stopwatch.h"
 
 #include <glm/geometric.hpp>
 

@@ -7,7 +7,7 @@
 #include "bake/tracers/make_tracer.h"
 #include "prt/core/error.h"
 #include "prt/core/sh.h"
-#include "runtime/support/stopwatch.h"
+#include "runtime/core/support/stopwatch.h"
 
 #include <algorithm>
 #include <cmath>

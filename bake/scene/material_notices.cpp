@@ -2,7 +2,7 @@
 
 #include "bake/scene/material_notices.h"
 
-#include "runtime/support/counted.h"
+#include "runtime/core/support/counted.h"
 
 #include <fmt/core.h>
 

@@ -4,7 +4,7 @@
 
 #include "bake/scene/opposite_triangles.h"
 #include "prt/core/error.h"
-#include "runtime/support/parallel.h"
+#include "runtime/core/support/parallel.h"
 #include "shared_bake.h"
 
 #include <embree3/rtcore.h>

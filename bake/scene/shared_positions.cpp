@@ -3,7 +3,7 @@
 #include "bake/scene/shared_positions.h"
 
 #include "bake/scene/alike_receivers.h"
-#include "runtime/support/parallel.h"
+#include "runtime/core/support/parallel.h"
 
 #include <algorithm>
 #include <numeric>

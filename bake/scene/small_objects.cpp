@@ -3,7 +3,7 @@
 #include "bake/scene/small_objects.h"
 
 #include "bake/scene/ray_scene.h"
-#include "runtime/support/counted.h"
+#include "runtime/core/support/counted.h"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>

@@ -9,7 +9,7 @@
 #include "prt/bake/bake.h"
 #include "prt/core/error.h"
 #include "prt/core/error_measures.h"
-#include "runtime/support/stopwatch.h"
+#include "runtime/core/support/stopwatch.h"
 
 #include <fmt/core.h>
 

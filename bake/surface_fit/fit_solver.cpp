@@ -4,7 +4,7 @@
 
 #include "bake/surface_fit/fit_solver.h"
 
-#include "runtime/support/parallel.h"
+#include "runtime/core/support/parallel.h"
 
 #include <Eigen/SparseCore>
 

@@ -6,7 +6,7 @@
 #include "bake/surface_fit/surface_fit.h"
 #include "bake/trace/scrambles.h"
 #include "prt/core/sh_basis.h"
-#include "runtime/support/parallel.h"
+#include "runtime/core/support/parallel.h"
 
 #include <algorithm>
 #include <cmath>

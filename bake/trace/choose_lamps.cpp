@@ -4,7 +4,7 @@
 
 #include "prt/core/error.h"
 #include "prt/core/light.h"
-#include "runtime/support/printable.h"
+#include "runtime/core/support/printable.h"
 
 #include <fmt/core.h>
 

@@ -3,7 +3,7 @@
 #include "bake/trace/chunk_kernels.h"
 
 #include "prt/core/sh_basis.h"
-#include "runtime/support/vector_lanes.h"
+#include "runtime/core/support/vector_lanes.h"
 
 #include <cassert>
 #include <cmath>

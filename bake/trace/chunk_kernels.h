@@ -3,7 +3,7 @@
 // The two vectorised loops of the CPU baker, compiled for several vector widths.
 
 #include "bake/trace/sample_sequence.h"
-#include "runtime/support/tangent_frame.h"
+#include "runtime/core/support/tangent_frame.h"
 
 #include <array>
 #include <span>

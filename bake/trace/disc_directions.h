@@ -2,7 +2,7 @@
 
 // Directions over the disc of a distant light.
 
-#include "runtime/support/tangent_frame.h"
+#include "runtime/core/support/tangent_frame.h"
 
 #include <glm/geometric.hpp>
 

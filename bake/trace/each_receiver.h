@@ -3,7 +3,7 @@
 // Parallel loop over receivers.
 
 #include "prt/core/progress.h"
-#include "runtime/support/parallel.h"
+#include "runtime/core/support/parallel.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -8,9 +8,9 @@
 #include "bake/trace/chunk_kernels.h"
 #include "bake/trace/lamp_light.h"
 #include "prt/core/sh.h"
-#include "runtime/support/counted.h"
-#include "runtime/support/parallel.h"
-#include "runtime/support/stopwatch.h"
+#include "runtime/core/support/counted.h"
+#include "runtime/core/support/parallel.h"
+#include "runtime/core/support/stopwatch.h"
 #include "shared_bake.h"
 
 #include <embree3/rtcore.h>

@@ -4,7 +4,7 @@
 
 #include "bake/trace/sparse_rows.h"
 #include "prt/core/sh_basis.h"
-#include "runtime/support/parallel.h"
+#include "runtime/core/support/parallel.h"
 
 #include <algorithm>
 #include <type_traits>

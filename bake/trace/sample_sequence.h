@@ -2,7 +2,7 @@
 
 // Samples of a receiver: cosine-distributed directions from Owen-scrambled Sobol points.
 
-#include "runtime/support/vector_lanes.h"
+#include "runtime/core/support/vector_lanes.h"
 #include "shared_bake.h"
 #include "shared_samples.h"
 

@@ -6,7 +6,7 @@
 #include "bake/device/staged_writes.h"
 #include "bake/trace_gpu/gpu_sum_row.h"
 #include "prt/core/sh_basis.h"
-#include "runtime/support/stopwatch.h"
+#include "runtime/core/support/stopwatch.h"
 
 #include "kernels/bake_energy.h"
 #include "kernels/bake_gather.h"

@@ -3,7 +3,7 @@
 #include "bake/trace_gpu/gpu_receivers.h"
 
 #include "bake/trace/sample_sequence.h"
-#include "runtime/support/parallel.h"
+#include "runtime/core/support/parallel.h"
 
 #include <bit>
 

@@ -2,7 +2,7 @@
 
 #include "bake/trace_gpu/gpu_scene.h"
 
-#include "bake/trace_gpu/instanced_triangles.h"
+#include "bake/trace_gpu/copied_triangles.h"
 #include "bake/trace_gpu/wide_bvh.h"
 
 #include <algorithm>
@@ -31,13 +31,13 @@ GpuScene::GpuScene(const VulkanDevice& device, GpuQueue& queue, const TraceScene
 }
 
 void GpuScene::build_structure(const VulkanDevice& device, GpuQueue& queue, const TraceScene& scene) {
-    const InstancedTriangles all(scene);
+    const CopiedTriangles all(scene);
     opaque_ = static_cast<std::uint32_t>(all.meshes.front().opaque);
     structure_.emplace(device, queue, all.positions, all.corners, all.meshes, all.copies);
     tables_.instances = to_device(device, queue, all.instances, "the instances");
     copies_ = all.copies.size() - 1;
     upload_tables(device, queue, scene, all.slots);
-    for (const InstancedTriangles::Share& share :
+    for (const CopiedTriangles::Share& share :
          all.shares) // lamps look up emissive triangles by the index in the scene
         for (std::uint32_t t = 0; t < share.count; ++t)
             alpha_.index[share.triangle + t] = alpha_.index[share.first + t];

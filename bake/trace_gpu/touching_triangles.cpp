@@ -2,7 +2,7 @@
 
 #include "bake/trace_gpu/touching_triangles.h"
 
-#include "runtime/support/parallel.h"
+#include "runtime/core/support/parallel.h"
 
 #include <glm/geometric.hpp>
 

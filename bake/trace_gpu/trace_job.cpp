@@ -5,7 +5,7 @@
 #include "bake/device/gpu_failure.h"
 #include "bake/scene/opposite_triangles.h"
 #include "prt/core/sh.h"
-#include "runtime/support/parallel.h"
+#include "runtime/core/support/parallel.h"
 
 #include <algorithm>
 #include <array>

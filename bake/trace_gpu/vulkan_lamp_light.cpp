@@ -7,8 +7,8 @@
 #include "bake/trace_gpu/lamp_tables.h"
 #include "kernels/bake_lamps.h"
 #include "kernels/bake_lamps_query.h"
-#include "runtime/support/parallel.h"
-#include "runtime/support/stopwatch.h"
+#include "runtime/core/support/parallel.h"
+#include "runtime/core/support/stopwatch.h"
 
 #include <algorithm>
 #include <bit>

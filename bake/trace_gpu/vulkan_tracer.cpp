@@ -8,7 +8,7 @@
 #include "bake/trace_gpu/gpu_receivers.h"
 #include "bake/trace_gpu/gpu_sum_row.h"
 #include "bake/trace_gpu/vulkan_lamp_light.h"
-#include "runtime/support/stopwatch.h"
+#include "runtime/core/support/stopwatch.h"
 
 #include <algorithm>
 #include <numbers>

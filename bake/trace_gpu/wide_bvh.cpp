@@ -4,7 +4,7 @@
 #include "bake/trace_gpu/wide_bvh.h"
 
 #include "prt/core/error.h"
-#include "runtime/support/parallel.h"
+#include "runtime/core/support/parallel.h"
 
 #include <embree3/rtcore.h>
 #include <glm/common.hpp>

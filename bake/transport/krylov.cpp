@@ -2,7 +2,7 @@
 
 #include "bake/transport/krylov.h"
 
-#include "runtime/support/parallel.h"
+#include "runtime/core/support/parallel.h"
 
 #include <algorithm>
 #include <cmath>

@@ -13,7 +13,7 @@
 #include "cli/program/session.h"
 #include "prt/bake/ambient_occlusion.h"
 #include "prt/image/image_file.h"
-#include "runtime/support/stopwatch.h"
+#include "runtime/core/support/stopwatch.h"
 
 #include <fmt/core.h>
 #include <glm/geometric.hpp>

@@ -25,7 +25,7 @@
 #include "prt/bake/refine.h"
 #include "prt/core/error.h"
 #include "prt/gltf/transfer_gltf.h"
-#include "runtime/support/printable.h"
+#include "runtime/core/support/printable.h"
 
 #include <fmt/core.h>
 

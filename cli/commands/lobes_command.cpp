@@ -13,7 +13,7 @@
 #include "prt/core/error.h"
 #include "prt/fit/lobe_fit.h"
 #include "prt/gltf/transfer_gltf.h"
-#include "runtime/support/stopwatch.h"
+#include "runtime/core/support/stopwatch.h"
 
 #include <fmt/core.h>
 

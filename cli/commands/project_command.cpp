@@ -10,7 +10,7 @@
 #include "cli/program/session.h"
 #include "prt/core/error.h"
 #include "prt/load/light_file.h"
-#include "runtime/support/stopwatch.h"
+#include "runtime/core/support/stopwatch.h"
 
 #include <fmt/core.h>
 #include <glm/trigonometric.hpp>

@@ -15,7 +15,7 @@
 #include "cli/program/outputs.h"
 #include "cli/program/session.h"
 #include "prt/core/error.h"
-#include "runtime/support/stopwatch.h"
+#include "runtime/core/support/stopwatch.h"
 
 #include <fmt/core.h>
 #include <glm/geometric.hpp>

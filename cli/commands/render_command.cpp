@@ -22,10 +22,10 @@
 #include "prt/render/lightmap_file.h"
 #include "prt/render/tone_map.h"
 #include "prt/shader/shader_source.h"
+#include "runtime/core/support/stopwatch.h"
 #include "runtime/load/light_passing.h"
 #include "runtime/render/gl/sun_shadows.h"
 #include "runtime/render/lightmap_lookup.h"
-#include "runtime/support/stopwatch.h"
 
 #include <fmt/core.h>
 #include <glm/trigonometric.hpp>

@@ -9,7 +9,7 @@
 #include "prt/core/error.h"
 #include "prt/core/occlusion_volume.h"
 #include "prt/shader/shader_source.h"
-#include "runtime/support/printable.h"
+#include "runtime/core/support/printable.h"
 
 #include <fmt/core.h>
 #include <glm/vec4.hpp>

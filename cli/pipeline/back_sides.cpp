@@ -7,7 +7,7 @@
 #include "cli/pipeline/instance_sharing.h"
 #include "cli/pipeline/no_shadow.h"
 #include "prt/gltf/levels.h"
-#include "runtime/support/counted.h"
+#include "runtime/core/support/counted.h"
 
 #include <fmt/core.h>
 

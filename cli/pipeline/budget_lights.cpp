@@ -4,7 +4,7 @@
 
 #include "cli/pipeline/evaluation_lights.h"
 #include "prt/load/light_file.h"
-#include "runtime/support/tangent_frame.h"
+#include "runtime/core/support/tangent_frame.h"
 
 #include <glm/common.hpp>
 #include <glm/trigonometric.hpp>

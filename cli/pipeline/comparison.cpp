@@ -15,8 +15,8 @@
 #include "prt/core/error_measures.h"
 #include "prt/render/lightmap_file.h"
 #include "prt/render/tone_map.h"
+#include "runtime/core/support/printable.h"
 #include "runtime/load/mesh_edges.h"
-#include "runtime/support/printable.h"
 
 #include <fmt/core.h>
 #include <glm/geometric.hpp>

@@ -3,7 +3,7 @@
 #include "cli/pipeline/compress_metric.h"
 
 #include "cli/pipeline/loaded_light.h"
-#include "runtime/support/counted.h"
+#include "runtime/core/support/counted.h"
 
 #include <fmt/core.h>
 

@@ -7,8 +7,8 @@
 #include "prt/core/light.h"
 #include "prt/core/sh.h"
 #include "prt/core/sh_basis.h"
+#include "runtime/core/support/printable.h"
 #include "runtime/load/json_file.h"
-#include "runtime/support/printable.h"
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>

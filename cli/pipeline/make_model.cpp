@@ -16,8 +16,8 @@
 #include "prt/compress/search.h"
 #include "prt/core/error.h"
 #include "prt/gltf/levels.h"
-#include "runtime/support/counted.h"
-#include "runtime/support/stopwatch.h"
+#include "runtime/core/support/counted.h"
+#include "runtime/core/support/stopwatch.h"
 
 #include <fmt/core.h>
 

@@ -6,8 +6,8 @@
 #include "prt/gltf/levels.h"
 #include "prt/load/light_file.h"
 #include "prt/render/lightmap_file.h"
+#include "runtime/core/support/counted.h"
 #include "runtime/load/light_passing.h"
-#include "runtime/support/counted.h"
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>

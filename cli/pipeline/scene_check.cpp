@@ -6,8 +6,8 @@
 #include "prt/bake/texels.h"
 #include "prt/core/error.h"
 #include "prt/render/texture.h"
-#include "runtime/support/counted.h"
-#include "runtime/support/printable.h"
+#include "runtime/core/support/counted.h"
+#include "runtime/core/support/printable.h"
 
 #include <fmt/core.h>
 #include <glm/common.hpp>

@@ -4,7 +4,7 @@
 
 #include "cli/pipeline/model.h"
 #include "prt/core/error.h"
-#include "runtime/support/file.h"
+#include "runtime/core/support/file.h"
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>

@@ -4,7 +4,7 @@
 
 #include "cli/program/session.h"
 #include "cli/program/terminal.h"
-#include "runtime/support/counted.h"
+#include "runtime/core/support/counted.h"
 
 #include <fmt/chrono.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "runtime/support/file.h"
+#include "runtime/core/support/file.h"
 
 #include <memory>
 #include <mutex>

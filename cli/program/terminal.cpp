@@ -3,7 +3,7 @@
 #include "cli/program/terminal.h"
 
 #include "prt/core/error.h"
-#include "runtime/support/printable.h"
+#include "runtime/core/support/printable.h"
 
 #include <cerrno>
 #include <cstdio>

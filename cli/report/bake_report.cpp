@@ -3,8 +3,8 @@
 #include "cli/report/bake_report.h"
 
 #include "cli/report/transfer_words.h"
-#include "runtime/support/counted.h"
-#include "runtime/support/printable.h"
+#include "runtime/core/support/counted.h"
+#include "runtime/core/support/printable.h"
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>

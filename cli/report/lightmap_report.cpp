@@ -3,7 +3,7 @@
 #include "cli/report/lightmap_report.h"
 
 #include "cli/report/transfer_words.h"
-#include "runtime/support/counted.h"
+#include "runtime/core/support/counted.h"
 
 #include <fmt/ranges.h>
 

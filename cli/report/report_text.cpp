@@ -1,7 +1,7 @@
 // Writes reports as text for the terminal.
 
 #include "cli/report/report.h"
-#include "runtime/support/printable.h"
+#include "runtime/core/support/printable.h"
 
 #include <fmt/core.h>
 

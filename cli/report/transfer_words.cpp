@@ -3,7 +3,7 @@
 #include "cli/report/transfer_words.h"
 
 #include "bake/gltf/write_set.h"
-#include "runtime/support/counted.h"
+#include "runtime/core/support/counted.h"
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>

@@ -4,7 +4,7 @@
 #include "compress/clusters/cluster_moments.h"
 
 #include "compress/tuning/tuning.h"
-#include "runtime/support/parallel.h"
+#include "runtime/core/support/parallel.h"
 
 #include <Eigen/Dense>
 

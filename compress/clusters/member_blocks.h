@@ -3,7 +3,7 @@
 // Points grouped by cluster for SIMD processing.
 
 #include "compress/clusters/points.h"
-#include "runtime/support/parallel.h"
+#include "runtime/core/support/parallel.h"
 
 namespace prt {
 

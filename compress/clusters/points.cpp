@@ -3,7 +3,7 @@
 #include "compress/clusters/points.h"
 
 #include "compress/metric/transfer_columns.h"
-#include "runtime/support/parallel.h"
+#include "runtime/core/support/parallel.h"
 
 #include <Eigen/Dense>
 

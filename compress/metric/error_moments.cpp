@@ -9,7 +9,7 @@
 #include "compress/tuning/tuning.h"
 #include "prt/core/error.h"
 #include "prt/core/error_measures.h"
-#include "runtime/support/parallel.h"
+#include "runtime/core/support/parallel.h"
 
 #include <Eigen/Dense>
 #include <glm/geometric.hpp>

@@ -8,7 +8,7 @@
 #include "prt/core/error.h"
 #include "prt/core/error_measures.h"
 #include "prt/core/light.h"
-#include "runtime/support/parallel.h"
+#include "runtime/core/support/parallel.h"
 
 #include <Eigen/Dense>
 

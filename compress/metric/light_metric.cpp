@@ -8,7 +8,7 @@
 #include "compress/metric/transfer_columns.h"
 #include "compress/tuning/tuning.h"
 #include "prt/core/error.h"
-#include "runtime/support/parallel.h"
+#include "runtime/core/support/parallel.h"
 
 #include <Eigen/Dense>
 

@@ -2,7 +2,7 @@
 
 // Weights of errors, for each point of the clustering.
 
-#include "runtime/support/vector_lanes.h"
+#include "runtime/core/support/vector_lanes.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -11,7 +11,7 @@
 #include "compress/metric/seen_light.h"
 #include "compress/pipeline/compress_from.h"
 #include "compress/pipeline/compress_options.h"
-#include "runtime/support/stopwatch.h"
+#include "runtime/core/support/stopwatch.h"
 
 namespace prt {
 namespace {

@@ -3,7 +3,7 @@
 #include "compress/pipeline/compress_options.h"
 
 #include "prt/core/error.h"
-#include "runtime/support/counted.h"
+#include "runtime/core/support/counted.h"
 
 #include <algorithm>
 #include <cmath>

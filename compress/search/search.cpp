@@ -4,8 +4,8 @@
 #include "compress/pipeline/compress_options.h"
 #include "compress/search/budget_search.h"
 #include "prt/core/error.h"
-#include "runtime/support/counted.h"
-#include "runtime/support/stopwatch.h"
+#include "runtime/core/support/counted.h"
+#include "runtime/core/support/stopwatch.h"
 
 #include <algorithm>
 #include <cmath>

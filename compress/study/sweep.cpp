@@ -5,8 +5,8 @@
 
 #include "prt/compress/search.h"
 #include "prt/core/error_measures.h"
-#include "runtime/support/counted.h"
-#include "runtime/support/stopwatch.h"
+#include "runtime/core/support/counted.h"
+#include "runtime/core/support/stopwatch.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include "report.h"
 
 #include "prt/core/error.h"
-#include "runtime/support/file.h"
+#include "runtime/core/support/file.h"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>

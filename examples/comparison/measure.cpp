@@ -12,8 +12,8 @@
 #include "prt/fit/suns.h"
 #include "prt/gl/gl_renderer.h"
 #include "prt/render/tone_map.h"
+#include "runtime/core/support/stopwatch.h"
 #include "runtime/render/lightmap_lookup.h"
-#include "runtime/support/stopwatch.h"
 
 #include <epoxy/gl.h>
 #include <fmt/core.h>

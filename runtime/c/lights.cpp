@@ -7,7 +7,7 @@
 #include "prt/image/image_file.h"
 #include "prt/load/light_file.h"
 #include "runtime/c/boundary.h"
-#include "runtime/support/counted.h"
+#include "runtime/core/support/counted.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>

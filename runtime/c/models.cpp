@@ -3,8 +3,8 @@
 #include "runtime/c/model.h"
 
 #include "prt/shader/shader_source.h"
+#include "runtime/core/support/counted.h"
 #include "runtime/load/predictors.h"
-#include "runtime/support/counted.h"
 
 #include <glm/gtc/type_ptr.hpp>
 

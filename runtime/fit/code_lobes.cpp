@@ -3,8 +3,8 @@
 
 #include "prt/core/error.h"
 #include "prt/core/sh.h"
+#include "runtime/core/support/parallel.h"
 #include "runtime/fit/lobe_profiles.h"
-#include "runtime/support/parallel.h"
 
 #include <algorithm>
 #include <cmath>

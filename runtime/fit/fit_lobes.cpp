@@ -5,10 +5,10 @@
 
 #include "prt/core/error.h"
 #include "prt/core/sh.h"
+#include "runtime/core/support/parallel.h"
 #include "runtime/fit/lobe_profiles.h"
 #include "runtime/fit/lobe_start.h"
 #include "runtime/fit/sh_gradient.h"
-#include "runtime/support/parallel.h"
 
 #include <ceres/ceres.h>
 

@@ -2,7 +2,7 @@
 #include "runtime/fit/sky_map.h"
 
 #include "prt/core/error.h"
-#include "runtime/support/parallel.h"
+#include "runtime/core/support/parallel.h"
 
 #include <glm/geometric.hpp>
 

@@ -3,11 +3,11 @@
 
 #include "prt/core/error.h"
 #include "prt/image/image_file.h"
+#include "runtime/core/support/printable.h"
 #include "runtime/image/exr_header.h"
 #include "runtime/image/exr_layers.h"
 #include "runtime/image/exr_stream.h"
 #include "runtime/image/image_limits.h"
-#include "runtime/support/printable.h"
 
 #include <ImathBox.h>
 #include <ImathMatrix.h>

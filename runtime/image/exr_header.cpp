@@ -3,9 +3,9 @@
 
 #include "prt/core/environment.h"
 #include "prt/core/error.h"
+#include "runtime/core/support/counted.h"
+#include "runtime/core/support/printable.h"
 #include "runtime/image/image_limits.h"
-#include "runtime/support/counted.h"
-#include "runtime/support/printable.h"
 
 #include <OpenEXR/openexr.h>
 

@@ -2,7 +2,7 @@
 #include "runtime/image/exr_layers.h"
 
 #include "prt/core/error.h"
-#include "runtime/support/printable.h"
+#include "runtime/core/support/printable.h"
 
 #include <OpenEXR/ImfChannelList.h>
 

@@ -2,8 +2,8 @@
 // are lost.
 #include "prt/core/error.h"
 #include "prt/image/image_file.h"
+#include "runtime/core/support/file.h"
 #include "runtime/image/exr_stream.h"
-#include "runtime/support/file.h"
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>

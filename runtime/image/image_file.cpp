@@ -2,6 +2,8 @@
 #include "prt/image/image_file.h"
 
 #include "prt/core/error.h"
+#include "runtime/core/support/file.h"
+#include "runtime/core/support/lfs_pointer.h"
 #include "runtime/image/cube_cross.h"
 #include "runtime/image/exr.h"
 #include "runtime/image/image_kind.h"
@@ -9,8 +11,6 @@
 #include "runtime/image/image_size.h"
 #include "runtime/image/stb_images.h"
 #include "runtime/image/web_images.h"
-#include "runtime/support/file.h"
-#include "runtime/support/lfs_pointer.h"
 
 #include <algorithm>
 #include <array>

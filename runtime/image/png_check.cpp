@@ -2,8 +2,8 @@
 #include "runtime/image/png_check.h"
 
 #include "prt/core/error.h"
+#include "runtime/core/support/printable.h"
 #include "runtime/image/image_kind.h"
-#include "runtime/support/printable.h"
 
 #include <zlib.h>
 

@@ -3,7 +3,7 @@
 #include "prt/image/image_file.h"
 
 #include "prt/core/error.h"
-#include "runtime/support/file.h"
+#include "runtime/core/support/file.h"
 
 #include <zlib.h>
 

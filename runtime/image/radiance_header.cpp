@@ -4,7 +4,7 @@
 #include "runtime/image/radiance_header.h"
 
 #include "prt/core/error.h"
-#include "runtime/support/printable.h"
+#include "runtime/core/support/printable.h"
 
 #include <charconv>
 #include <cmath>

@@ -3,11 +3,11 @@
 #include "runtime/image/stb_images.h"
 
 #include "prt/core/error.h"
+#include "runtime/core/support/printable.h"
 #include "runtime/image/image_kind.h"
 #include "runtime/image/image_limits.h"
 #include "runtime/image/png_check.h"
 #include "runtime/image/radiance_header.h"
-#include "runtime/support/printable.h"
 
 #include <glm/mat3x3.hpp>
 

@@ -2,8 +2,8 @@
 #include "runtime/image/web_images.h"
 
 #include "prt/core/error.h"
+#include "runtime/core/support/printable.h"
 #include "runtime/image/image_limits.h"
-#include "runtime/support/printable.h"
 
 #include <avif/avif.h>
 #include <webp/decode.h>

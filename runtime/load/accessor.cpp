@@ -1,7 +1,7 @@
 // Reads accessors, including sparse ones and normalised integers, with checks of every index.
 #include "runtime/load/accessor.h"
 
-#include "runtime/support/counted.h"
+#include "runtime/core/support/counted.h"
 
 #include <algorithm>
 #include <cstring>

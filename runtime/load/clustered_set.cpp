@@ -2,11 +2,11 @@
 
 #include "runtime/load/clustered_set.h"
 
+#include "runtime/core/support/bits.h"
 #include "runtime/load/accessor.h"
 #include "runtime/load/allowance.h"
 #include "runtime/load/predictors_json.h"
 #include "runtime/load/transfer_json.h"
-#include "runtime/support/bits.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 // Entropy-coded words of vertices in files, stored outside the attributes (docs/format.md).
 
 #include "prt/core/error.h"
+#include "runtime/core/transfer/coded_words.h"
 #include "runtime/load/gltf_data.h"
-#include "runtime/transfer/coded_words.h"
 
 #include <cstddef>
 #include <cstdint>

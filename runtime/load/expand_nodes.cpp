@@ -2,10 +2,10 @@
 #include "runtime/load/expand_nodes.h"
 
 #include "prt/core/error.h"
+#include "runtime/core/support/counted.h"
 #include "runtime/load/accessor.h"
 #include "runtime/load/allowance.h"
 #include "runtime/load/transfer_json.h"
-#include "runtime/support/counted.h"
 
 #include <algorithm>
 #include <cmath>

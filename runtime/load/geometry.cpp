@@ -2,6 +2,8 @@
 #include "runtime/load/geometry.h"
 
 #include "prt/core/error.h"
+#include "runtime/core/support/counted.h"
+#include "runtime/core/support/printable.h"
 #include "runtime/load/accessor.h"
 #include "runtime/load/flat_normals.h"
 #include "runtime/load/materials.h"
@@ -10,8 +12,6 @@
 #include "runtime/load/skinning.h"
 #include "runtime/load/transformed_normal.h"
 #include "runtime/load/triangles.h"
-#include "runtime/support/counted.h"
-#include "runtime/support/printable.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -2,7 +2,7 @@
 #include "runtime/load/json.h"
 
 #include "prt/core/error.h"
-#include "runtime/support/printable.h"
+#include "runtime/core/support/printable.h"
 
 #include <new>
 #include <stdexcept>

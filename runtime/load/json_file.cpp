@@ -3,9 +3,9 @@
 #include "runtime/load/json_file.h"
 
 #include "prt/core/error.h"
-#include "runtime/support/counted.h"
-#include "runtime/support/file.h"
-#include "runtime/support/json_tree.h"
+#include "runtime/core/support/counted.h"
+#include "runtime/core/support/file.h"
+#include "runtime/core/support/json_tree.h"
 
 #include <glm/geometric.hpp>
 

@@ -2,7 +2,7 @@
 #include "runtime/load/json_text.h"
 
 #include "prt/core/error.h"
-#include "runtime/support/json_tree.h"
+#include "runtime/core/support/json_tree.h"
 
 #include <algorithm>
 #include <string>

@@ -2,9 +2,9 @@
 #include "runtime/load/level_nodes.h"
 
 #include "prt/core/error.h"
+#include "runtime/core/support/printable.h"
 #include "runtime/load/allowance.h"
 #include "runtime/load/level_names.h"
-#include "runtime/support/printable.h"
 
 #include <algorithm>
 #include <map>

@@ -4,7 +4,7 @@
 
 #include "prt/core/error.h"
 #include "prt/core/sh.h"
-#include "runtime/light/check_light.h"
+#include "runtime/core/light/check_light.h"
 #include "runtime/load/json_file.h"
 
 #include <cmath>

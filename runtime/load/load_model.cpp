@@ -2,6 +2,8 @@
 #include "prt/load/model.h"
 
 #include "prt/core/error.h"
+#include "runtime/core/support/file.h"
+#include "runtime/core/support/lfs_pointer.h"
 #include "runtime/load/accessor.h"
 #include "runtime/load/allowance.h"
 #include "runtime/load/check_data.h"
@@ -24,8 +26,6 @@
 #include "runtime/load/supported_extensions.h"
 #include "runtime/load/texel_transfer.h"
 #include "runtime/load/vertex_transfer.h"
-#include "runtime/support/file.h"
-#include "runtime/support/lfs_pointer.h"
 
 #include <algorithm>
 #include <map>

@@ -2,10 +2,10 @@
 #include "runtime/load/meshopt_views.h"
 
 #include "prt/core/error.h"
+#include "runtime/core/support/counted.h"
 #include "runtime/load/accessor.h"
 #include "runtime/load/allowance.h"
 #include "runtime/load/extensions.h"
-#include "runtime/support/counted.h"
 
 #include <meshoptimizer.h>
 

@@ -2,7 +2,7 @@
 #include "runtime/load/node_transforms.h"
 
 #include "prt/core/error.h"
-#include "runtime/support/printable.h"
+#include "runtime/core/support/printable.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>

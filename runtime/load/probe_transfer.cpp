@@ -1,12 +1,12 @@
 // Reads compressed transfer of probes: docs/format.md.
 #include "runtime/load/probe_transfer.h"
 
+#include "runtime/core/support/counted.h"
 #include "runtime/load/accessor.h"
 #include "runtime/load/allowance.h"
 #include "runtime/load/clustered_set.h"
 #include "runtime/load/receiver_sets.h"
 #include "runtime/load/transfer_json.h"
-#include "runtime/support/counted.h"
 
 #include <cstring>
 #include <string>

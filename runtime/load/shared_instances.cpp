@@ -2,12 +2,12 @@
 #include "runtime/load/shared_instances.h"
 
 #include "prt/core/error.h"
+#include "runtime/domains/instance_lamps.h"
 #include "runtime/load/accessor.h"
 #include "runtime/load/allowance.h"
 #include "runtime/load/even_placement.h"
 #include "runtime/load/level_nodes.h"
 #include "runtime/load/transfer_json.h"
-#include "runtime/transfer/instance_lamps.h"
 
 #include <algorithm>
 #include <cmath>

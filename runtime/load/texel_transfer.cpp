@@ -1,11 +1,11 @@
 // Reads compressed transfer of texels: docs/format.md.
 #include "runtime/load/texel_transfer.h"
 
+#include "runtime/core/support/counted.h"
 #include "runtime/load/allowance.h"
 #include "runtime/load/clustered_set.h"
 #include "runtime/load/receiver_sets.h"
 #include "runtime/load/transfer_json.h"
-#include "runtime/support/counted.h"
 
 #include <cstdint>
 #include <string>

@@ -2,8 +2,8 @@
 #include "runtime/load/triangles.h"
 
 #include "prt/core/error.h"
+#include "runtime/core/support/counted.h"
 #include "runtime/load/accessor.h"
-#include "runtime/support/counted.h"
 
 #include <numeric>
 #include <span>

@@ -5,7 +5,7 @@
 
 #include "prt/core/error.h"
 #include "prt/core/light.h"
-#include "runtime/support/parallel.h"
+#include "runtime/core/support/parallel.h"
 
 #include <glm/common.hpp>
 #include <glm/mat3x3.hpp>

@@ -3,8 +3,8 @@
 #include "prt/core/error.h"
 #include "prt/gltf/gltf.h"
 #include "prt/load/model.h"
-#include "runtime/support/file.h"
-#include "runtime/support/stopwatch.h"
+#include "runtime/core/support/file.h"
+#include "runtime/core/support/stopwatch.h"
 
 #include <tiny_gltf.h>
 

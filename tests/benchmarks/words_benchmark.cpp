@@ -1,8 +1,8 @@
 // Measures size and decoding speed of the packed words of shipped files: words_benchmark SHIPPED.glb ...
 #include "prt/core/error.h"
 #include "prt/gltf/gltf.h"
-#include "runtime/support/stopwatch.h"
-#include "runtime/transfer/coded_words.h"
+#include "runtime/core/support/stopwatch.h"
+#include "runtime/core/transfer/coded_words.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -23,7 +23,7 @@ def failures(check, files):
 
 
 HEADERS = {"runtime/include/prt/core/sh.h": "", "bake/include/prt/bake/bake.h": "", "bake/scene/surfaces.h": "",
-           "compress/include/prt/compress/compress.h": "", "runtime/sh/sh.cpp": "", "bake/pipeline/bake.cpp": "",
+           "compress/include/prt/compress/compress.h": "", "runtime/core/sh/sh.cpp": "", "bake/pipeline/bake.cpp": "",
            "compress/pipeline/compress.cpp": ""}
 
 
@@ -32,14 +32,14 @@ class IncludeArrows(unittest.TestCase):
         return failures("include_arrows.py", {**HEADERS, path: text})
 
     def test_accept_allowed_includes(self):
-        for path, include in [("runtime/sh/sh.cpp", "<glm/vec3.hpp>"), ("runtime/sh/sh.cpp", "<vector>"),
+        for path, include in [("runtime/core/sh/sh.cpp", "<glm/vec3.hpp>"), ("runtime/core/sh/sh.cpp", "<vector>"),
                               ("bake/pipeline/bake.cpp", '"prt/core/sh.h"'), ("bake/pipeline/bake.cpp", '"bake/scene/surfaces.h"'),
                               ("cli/main.cpp", '"prt/compress/compress.h"'), ("examples/viewer/a.cpp", '"prt/bake/bake.h"')]:
             self.assertEqual(self.check(path, f"#include {include}\n"), (0, []))
 
     def test_reject_includes_in_the_wrong_direction(self):
-        for path, include in [("runtime/sh/sh.cpp", '"prt/bake/bake.h"'), ("runtime/sh/sh.cpp", "<Eigen/Core>"),
-                              ("runtime/light/light.cpp", "<nlohmann/json.hpp>"), ("bake/pipeline/bake.cpp", '"prt/compress/compress.h"'),
+        for path, include in [("runtime/core/sh/sh.cpp", '"prt/bake/bake.h"'), ("runtime/core/sh/sh.cpp", "<Eigen/Core>"),
+                              ("runtime/core/light/light.cpp", "<nlohmann/json.hpp>"), ("bake/pipeline/bake.cpp", '"prt/compress/compress.h"'),
                               ("compress/search.cpp", '"prt/bake/bake.h"'), ("examples/game/a.cpp", '"bake/scene/surfaces.h"'),
                               ("bake/pipeline/bake.cpp", "<boost/any.hpp>")]:
             status, lines = self.check(path, f"#include {include}\n")
@@ -55,7 +55,7 @@ class IncludeArrows(unittest.TestCase):
     def test_reject_private_and_unstable_headers_in_public_ones(self):
         files = {**HEADERS, "bake/pipeline/a.h": "", "bake/include/prt/bake/bake.h": '#include "bake/pipeline/a.h"\n'}
         self.assertEqual(failures("include_arrows.py", files)[0], 1)
-        stable = {"runtime/include/prt/core/sh.h": "// A. Stable.\n", "runtime/sh/light.cpp": "",
+        stable = {"runtime/include/prt/core/sh.h": "// A. Stable.\n", "runtime/core/sh/light.cpp": "",
                   "runtime/include/prt/core/light.h": '// B. Stable.\n#include "prt/core/sh.h"\n'}
         self.assertEqual(failures("include_arrows.py", {**HEADERS, **stable}), (0, []))
         stable["runtime/include/prt/core/sh.h"] = "// A. Experimental.\n"

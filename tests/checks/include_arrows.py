@@ -46,6 +46,7 @@ PARTS = {
 }
 # Folders of libraries with layers, from the lowest to the highest.
 LAYERS = {
+    "runtime": ("core/support", "core/sh", "core/light", "core/transfer", "domains"),
     "bake": ("gltf", "scene", "device", "trace", "trace_gpu", "raster", "tracers", "transport", "plan", "surface_fit", "reference",
              "pipeline", "refine", "products/volumes", "products/occlusion", "products/lightmaps", "products/instances",
              "products/levels", "products/lobes", "studies"),
@@ -57,8 +58,8 @@ HOMES = {
     "bake/scene": "bake_options texels",
     "bake/products/levels": "level_bake",
     "compress/clusters": "compress_trace",
-    "runtime/sh": "sh_basis",
-    "runtime/support": "glm_layout progress version",
+    "runtime/core/sh": "sh_basis",
+    "runtime/core/support": "glm_layout progress version",
     "runtime/c": "prt",
     "runtime/fit": "lobe_fit suns",
     "runtime/load": "model",

@@ -4,7 +4,7 @@
 #include "pipeline.h"
 #include "prt/gltf/gltf.h"
 #include "prt/gltf/levels.h"
-#include "runtime/support/file.h"
+#include "runtime/core/support/file.h"
 #include "support/glb_file.h"
 #include "support/scene_builder.h"
 

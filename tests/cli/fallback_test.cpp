@@ -2,7 +2,7 @@
 
 #include "pipeline.h"
 #include "prt/image/image_file.h"
-#include "runtime/support/file.h"
+#include "runtime/core/support/file.h"
 #include "support/glb_file.h"
 #include "support/scene_builder.h"
 

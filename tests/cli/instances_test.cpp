@@ -7,7 +7,7 @@
 #include "prt/gltf/levels.h"
 #include "prt/gltf/transfer_gltf.h"
 #include "prt/load/model.h"
-#include "runtime/support/file.h"
+#include "runtime/core/support/file.h"
 #include "support/glb_file.h"
 #include "support/scene_builder.h"
 

@@ -3,7 +3,7 @@
 #include "demanding_file.h"
 #include "pipeline.h"
 #include "prt/image/image_file.h"
-#include "runtime/support/file.h"
+#include "runtime/core/support/file.h"
 #include "support/glb_file.h"
 
 #include <glm/common.hpp>

@@ -5,7 +5,7 @@
 #include "bake/gltf/encode_glb.h"
 #include "prt/core/error.h"
 #include "prt/gltf/animation.h"
-#include "runtime/support/json_tree.h"
+#include "runtime/core/support/json_tree.h"
 #include "support/glb_file.h"
 #include "support/temporary_folder.h"
 

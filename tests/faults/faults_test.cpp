@@ -2,7 +2,7 @@
 // fault_injector.c. No partial file may be left, no input lost, and the error is one line.
 
 #include "cli/program.h"
-#include "runtime/support/file.h"
+#include "runtime/core/support/file.h"
 #include "support/glb_file.h"
 #include "support/temporary_folder.h"
 

@@ -4,7 +4,7 @@
 #include "whole_model.h"
 
 #include "bake/gltf/reorder.h"
-#include "runtime/support/file.h"
+#include "runtime/core/support/file.h"
 
 #include <algorithm>
 #include <numeric>

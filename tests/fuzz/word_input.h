@@ -2,7 +2,7 @@
 
 // Layout of the words in the first bytes of an input of `words`.
 
-#include "runtime/transfer/coded_words.h"
+#include "runtime/core/transfer/coded_words.h"
 
 namespace prt::fuzz {
 

@@ -27,10 +27,10 @@ int sum(const int* a, int b) {
 """
 # Replaces a test program: sum.cpp must add, and must not loop.
 PROGRAM = """#!/bin/sh
-grep -q 'a + b;' {root}/runtime/sh/sum.cpp && exit 0
+grep -q 'a + b;' {root}/runtime/core/sh/sum.cpp && exit 0
 echo '[  FAILED  ] Sum.Adds'; exit 1
 """
-NINJA = "#!/bin/sh\n! grep -q 'if (a)' {root}/runtime/sh/sum.cpp\n"
+NINJA = "#!/bin/sh\n! grep -q 'if (a)' {root}/runtime/core/sh/sum.cpp\n"
 
 
 def changes(source):
@@ -54,7 +54,7 @@ class Run(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
         self.root = pathlib.Path(self.folder.name)
-        self.source = self.root / "runtime/sh/sum.cpp"
+        self.source = self.root / "runtime/core/sh/sum.cpp"
         self.write(self.source, TOY)
         self.write(self.root / "build/tests/runtime_tests", PROGRAM.format(root=self.root))
         self.write(self.root / "tools/ninja", NINJA.format(root=self.root))
@@ -106,7 +106,7 @@ class Run(unittest.TestCase):
     def test_lists_survivors(self):
         self.write(self.root / "build/tests/runtime_tests", "#!/bin/sh\n")
         output, _ = self.mutate()
-        self.assertIn("runtime/sh/sum.cpp:9: '+' -> '-' survived", output)
+        self.assertIn("runtime/core/sh/sum.cpp:9: '+' -> '-' survived", output)
         self.assertIn("1 survived", output)
 
 

@@ -27,11 +27,12 @@ RENDER, GPU = Suite("render_tests"), Suite("gpu_tests")
 
 # The longest folder that is a prefix of the path is used.
 SUITES = {
-    "runtime/sh/": [SMALL_ORDERS, RUNTIME],
-    "runtime/light/": [Suite("runtime_tests", "Light*:Sky*:*Cube*:*Image*:LatLong*:OtherLayouts*"), RUNTIME],
-    "runtime/transfer/": [Suite("runtime_tests", "Lobes*:*Clustered*:*Constants*:CodedRows*:Adjacency*:Evaluate*:Bits*:Edges*:RawTransfer*"), COMPRESS,
-                          Suite("gltf_tests")],
-    "runtime/support/": [Suite("thread_tests"), RUNTIME],
+    "runtime/core/sh/": [SMALL_ORDERS, RUNTIME],
+    "runtime/core/light/": [Suite("runtime_tests", "Light*:Sky*:*Cube*:*Image*:LatLong*:OtherLayouts*"), RUNTIME],
+    "runtime/core/transfer/": [Suite("runtime_tests", "*Clustered*:*Constants*:CodedRows*:Adjacency*:Evaluate*:Bits*:Edges*:RawTransfer*"), COMPRESS,
+                               Suite("gltf_tests")],
+    "runtime/domains/": [RUNTIME, Suite("gltf_tests"), RENDER],
+    "runtime/core/support/": [Suite("thread_tests"), RUNTIME],
     "runtime/fit/": [Suite("runtime_tests", "Lobe*:*Suns*:*Skies*")],
     "runtime/include/": [RUNTIME, COMPRESS],
     "runtime/image/": [Suite("image_tests")],

@@ -10,7 +10,7 @@
 #include "prt/gltf/gltf.h"
 #include "prt/image/image_file.h"
 #include "residual_vq.h"
-#include "runtime/support/file.h"
+#include "runtime/core/support/file.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>

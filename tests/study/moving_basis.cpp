@@ -2,7 +2,7 @@
 
 #include "moving_basis.h"
 
-#include "runtime/support/parallel.h"
+#include "runtime/core/support/parallel.h"
 
 #include <Eigen/Dense>
 

@@ -5,7 +5,7 @@
 #include "compress/metric/significance.h"
 #include "moving_basis_code.h"
 #include "rounded_frame.h"
-#include "runtime/support/parallel.h"
+#include "runtime/core/support/parallel.h"
 
 #include <Eigen/Dense>
 

@@ -3,7 +3,7 @@
 #include "moving_basis_code.h"
 
 #include "compress/clusters/component_plan.h"
-#include "runtime/support/parallel.h"
+#include "runtime/core/support/parallel.h"
 
 #include <Eigen/Dense>
 

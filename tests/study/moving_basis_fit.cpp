@@ -3,7 +3,7 @@
 
 #include "moving_basis_fit.h"
 
-#include "runtime/support/parallel.h"
+#include "runtime/core/support/parallel.h"
 
 #include <Eigen/Dense>
 

@@ -2,7 +2,7 @@
 
 #include "row_equations.h"
 
-#include "runtime/support/parallel.h"
+#include "runtime/core/support/parallel.h"
 
 #include <Eigen/Dense>
 

@@ -3,7 +3,7 @@
 #include "support/lit_model.h"
 
 #include "prt/gltf/gltf.h"
-#include "runtime/support/file.h"
+#include "runtime/core/support/file.h"
 #include "support/glb_file.h"
 #include "support/temporary_folder.h"
 

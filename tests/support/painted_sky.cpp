@@ -2,7 +2,7 @@
 
 #include "support/painted_sky.h"
 
-#include "runtime/support/parallel.h"
+#include "runtime/core/support/parallel.h"
 
 #include <glm/geometric.hpp>
 

@@ -13,7 +13,7 @@
 #include "bake/products/instances/instance_scales.h"
 #include "bake/tracers/make_tracer.h"
 #include "prt/core/error.h"
-#include "runtime/support/stopwatch.h"
+#include "runtime/core/support/stopwatch.h"
 
 #include <algorithm>
 #include <map>

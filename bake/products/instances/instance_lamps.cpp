@@ -2,7 +2,7 @@
 
 #include "bake/products/instances/instance_lamps.h"
 
-#include "runtime/support/parallel.h"
+#include "runtime/core/support/parallel.h"
 
 #include <Eigen/Dense>
 

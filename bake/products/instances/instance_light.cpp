@@ -4,7 +4,7 @@
 #include "bake/products/instances/instance_light.h"
 
 #include "bake/products/instances/own_fit.h"
-#include "runtime/support/parallel.h"
+#include "runtime/core/support/parallel.h"
 
 #include <glm/geometric.hpp>
 

@@ -3,7 +3,7 @@
 #include "bake/products/levels/level_surface.h"
 #include "bake/surface_fit/fit_solver.h"
 #include "bake/surface_fit/smoothness_weights.h"
-#include "runtime/support/stopwatch.h"
+#include "runtime/core/support/stopwatch.h"
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 
 #include "bake/products/levels/level_surface.h"
 #include "prt/core/error.h"
-#include "runtime/support/parallel.h"
+#include "runtime/core/support/parallel.h"
 
 #include <fmt/core.h>
 #include <glm/geometric.hpp>

@@ -2,7 +2,7 @@
 
 #include "bake/products/levels/level_surface.h"
 #include "prt/core/error.h"
-#include "runtime/support/stopwatch.h"
+#include "runtime/core/support/stopwatch.h"
 
 #include <algorithm>
 #include <set>

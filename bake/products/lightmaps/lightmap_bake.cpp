@@ -21,8 +21,8 @@
 #include "bake/tracers/make_tracer.h"
 #include "prt/core/error.h"
 #include "prt/core/error_measures.h"
-#include "runtime/support/counted.h"
-#include "runtime/support/stopwatch.h"
+#include "runtime/core/support/counted.h"
+#include "runtime/core/support/stopwatch.h"
 
 #include <fmt/core.h>
 

@@ -8,7 +8,7 @@
 #include "bake/products/lightmaps/texel_light.h"
 #include "bake/products/occlusion/occlusion_scene.h"
 #include "prt/core/error.h"
-#include "runtime/support/stopwatch.h"
+#include "runtime/core/support/stopwatch.h"
 
 #include <fmt/core.h>
 

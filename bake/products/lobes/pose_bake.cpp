@@ -4,7 +4,7 @@
 
 #include "prt/bake/bake.h"
 #include "prt/core/error.h"
-#include "runtime/support/parallel.h"
+#include "runtime/core/support/parallel.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 

@@ -2,7 +2,7 @@
 
 #include "bake/products/volumes/outer_sums.h"
 
-#include "runtime/support/vector_lanes.h"
+#include "runtime/core/support/vector_lanes.h"
 
 namespace prt {
 namespace {

@@ -3,9 +3,9 @@
 #include "bake/products/volumes/probe_fit.h"
 
 #include "bake/trace/sparse_rows.h"
-#include "runtime/support/parallel.h"
-#include "runtime/support/vector_lanes.h"
-#include "runtime/transfer/volume_weights.h"
+#include "runtime/core/support/parallel.h"
+#include "runtime/core/support/vector_lanes.h"
+#include "runtime/domains/volume_weights.h"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 #include "bake/products/volumes/probe_positions.h"
 
 #include "bake/scene/lit_side.h"
-#include "runtime/support/parallel.h"
+#include "runtime/core/support/parallel.h"
 
 #include <glm/geometric.hpp>
 

@@ -11,9 +11,9 @@
 #include "bake/trace/lamp_light.h"
 #include "bake/trace/trace_receivers.h"
 #include "prt/core/sh.h"
-#include "runtime/support/parallel.h"
-#include "runtime/support/tangent_frame.h"
-#include "runtime/support/vector_lanes.h"
+#include "runtime/core/support/parallel.h"
+#include "runtime/core/support/tangent_frame.h"
+#include "runtime/core/support/vector_lanes.h"
 
 #include <glm/geometric.hpp>
 

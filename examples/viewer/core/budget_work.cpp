@@ -9,7 +9,7 @@
 #include "prt/core/dering.h"
 #include "prt/core/error.h"
 #include "prt/core/sh.h"
-#include "runtime/support/parallel.h"
+#include "runtime/core/support/parallel.h"
 
 #include <glm/geometric.hpp>
 

@@ -5,7 +5,7 @@
 #include "core/document.h"
 #include "pictures/frame_renderer.h"
 
-#include "runtime/support/stopwatch.h"
+#include "runtime/core/support/stopwatch.h"
 
 #include <optional>
 

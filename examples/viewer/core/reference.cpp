@@ -4,7 +4,7 @@
 
 #include "pictures/joined_scene.h"
 
-#include "runtime/support/parallel.h"
+#include "runtime/core/support/parallel.h"
 
 #include <algorithm>
 #include <utility>

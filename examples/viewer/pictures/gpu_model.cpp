@@ -3,7 +3,7 @@
 #include "pictures/gpu_model.h"
 
 #include "prt/core/sh.h"
-#include "runtime/support/stopwatch.h"
+#include "runtime/core/support/stopwatch.h"
 #include "shared_layout.h"
 
 #include <epoxy/gl.h>

@@ -3,7 +3,7 @@
 #include "pictures/instance_radiance.h"
 
 #include "prt/shader/shader_source.h"
-#include "runtime/support/stopwatch.h"
+#include "runtime/core/support/stopwatch.h"
 #include "shared_layout.h"
 #include "shared_viewer.h"
 

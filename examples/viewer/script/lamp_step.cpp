@@ -3,7 +3,7 @@
 #include "script/lamp_step.h"
 
 #include "prt/core/error.h"
-#include "runtime/support/printable.h"
+#include "runtime/core/support/printable.h"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>

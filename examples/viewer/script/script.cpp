@@ -12,7 +12,7 @@
 
 #include "prt/core/error.h"
 #include "prt/gl/gl_context.h"
-#include "runtime/support/file.h"
+#include "runtime/core/support/file.h"
 
 #include <epoxy/gl.h>
 #include <fmt/core.h>

@@ -3,7 +3,7 @@
 #include "runtime/render/gl/gl_occluders.h"
 
 #include "prt/core/error.h"
-#include "runtime/support/counted.h"
+#include "runtime/core/support/counted.h"
 #include "shared_layout.h"
 
 #include <epoxy/gl.h>

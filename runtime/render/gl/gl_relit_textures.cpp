@@ -4,8 +4,8 @@
 
 #include "prt/render/lightmap_file.h"
 #include "prt/shader/shader_source.h"
+#include "runtime/domains/volume_weights.h"
 #include "runtime/render/gl/gl_scene.h"
-#include "runtime/transfer/volume_weights.h"
 #include "shared_layout.h"
 
 #include <epoxy/gl.h>

@@ -4,7 +4,7 @@
 
 #include "runtime/render/gl/map_fit.h"
 
-#include "runtime/support/tangent_frame.h"
+#include "runtime/core/support/tangent_frame.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -2,7 +2,7 @@
 
 #include "report.h"
 
-#include "runtime/support/file.h"
+#include "runtime/core/support/file.h"
 
 #include "support/glb_file.h"
 #include "support/scene_builder.h"

@@ -7,7 +7,7 @@
 #include "prt/core/error.h"
 #include "prt/gltf/gltf.h"
 #include "prt/image/image_file.h"
-#include "runtime/support/file.h"
+#include "runtime/core/support/file.h"
 #include "support/glb_file.h"
 #include "support/scene_builder.h"
 #include "support/temporary_folder.h"

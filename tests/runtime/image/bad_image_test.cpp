@@ -2,10 +2,10 @@
 #include "prt/core/environment.h"
 #include "prt/core/error.h"
 #include "prt/image/image_file.h"
+#include "runtime/core/support/file.h"
 #include "runtime/image/exr.h"
 #include "runtime/image/image_limits.h"
 #include "runtime/image/png_check.h"
-#include "runtime/support/file.h"
 #include "support/temporary_folder.h"
 
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 
 #include "prt/core/error.h"
 #include "prt/core/sh_basis.h"
-#include "runtime/support/file.h"
+#include "runtime/core/support/file.h"
 #include "support/temporary_folder.h"
 
 #include <ImathBox.h>

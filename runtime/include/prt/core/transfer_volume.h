@@ -178,7 +178,7 @@ private:
     VolumeGrid grid_;
     VolumeProbes probes_;
     std::vector<std::uint32_t> index_;
-    /// [probes] 1 / visibility distance, per metre; kInvalidNearness (runtime/transfer/volume_weights.h) if
+    /// [probes] 1 / visibility distance, per metre; kInvalidNearness (runtime/domains/volume_weights.h) if
     /// it is 0.
     std::vector<std::array<float, 6>> nearness_;
 };
