@@ -87,7 +87,7 @@ web() {
 # Needs the build of `optimised`.
 web_all() {
     check_page check knot,tree 64 ''
-    PRT=$PWD/build/check/cli/prt PRTKIT_WEB=$PWD/build/web node examples/web/test/installed.mjs
+    PRT=$PWD/build/check/cli/prt PRTKIT_WEB=$PWD/build/web node runtime/web/test/installed.mjs
 }
 
 configure() {
@@ -119,7 +119,7 @@ run_tidy() {
 # Chromium with those of prt.
 check_page() (
     install_page
-    npm --silent --prefix examples/web test
+    npm --silent --prefix runtime/web test
     export PRT=$PWD/build/$1/cli/prt PRT_EXAMPLE_SCENES=$PWD/build/$1/examples/scenes/example_scenes
     export PRTKIT_WEB=$PWD/build/web PRT_SCENES=$2 PRT_RAYS=$3
     rm -rf "$PRTKIT_WEB"
@@ -128,7 +128,10 @@ check_page() (
 )
 
 install_page() {
-    npm --silent --prefix examples/web install --no-audit --no-fund --no-package-lock
+    local folder
+    for folder in runtime/web examples/web; do
+        npm --silent --prefix $folder install --no-audit --no-fund --no-package-lock
+    done
 }
 
 # Prints a table of the steps and their times, also after a failure.

@@ -9,7 +9,7 @@ images=docs/images build=${1:-build/release}
 prt=$build/cli/prt
 work=$PWD/build/pictures
 mkdir -p "$work"
-npm --silent --prefix examples/web install --no-audit --no-fund --no-package-lock
+for folder in runtime/web examples/web; do npm --silent --prefix $folder install --no-audit --no-fund --no-package-lock; done
 scenes=$work/scenes
 [ -f "$scenes/sky.exr" ] || "$build/examples/scenes/example_scenes" "$scenes" >/dev/null
 sky=$scenes/sky.exr

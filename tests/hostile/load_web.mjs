@@ -1,4 +1,4 @@
-// Tests the plug-in of examples/web with damaged shipped files:
+// Tests the plug-in of runtime/web with damaged shipped files:
 //   node load_web.mjs FOLDER [verbose]
 // three's GLTFLoader loads every FOLDER/*.glb with the plug-in: an Error with the reason rejects it, or its
 // light is finite, in bounded time. FOLDER/whole.*.glb are valid and must be read. Prints all violations, and
@@ -8,7 +8,7 @@ import { createRequire } from "node:module";
 import { dirname, join } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
 
-const web = join(dirname(fileURLToPath(import.meta.url)), "../../examples/web");
+const web = join(dirname(fileURLToPath(import.meta.url)), "../../runtime/web");
 const require = createRequire(join(web, "package.json"));
 const module = (name) => import(pathToFileURL(require.resolve(name)).href);
 const { GLTFLoader } = await module("three/examples/jsm/loaders/GLTFLoader.js");

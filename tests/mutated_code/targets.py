@@ -10,7 +10,7 @@ class Suite(NamedTuple):
 
     def command(self, build, root):
         if self.program == "node":
-            return ["node", "--test", *sorted(map(str, (root / "examples/web/test").glob("*.test.js")))]
+            return ["node", "--test", *sorted(map(str, (root / "runtime/web/test").glob("*.test.js")))]
         return [str(build / "tests" / self.program), f"--gtest_filter={self.filter}", "--gtest_fail_fast", "--gtest_brief=1"]
 
 
@@ -50,7 +50,7 @@ SUITES = {
     "shaders/": [RENDER, GPU],
     "shaders/viewer_": [Suite("viewer_tests")],
     # Only the modules of the package are tested here; Chromium tests the others.
-    **{f"examples/web/src/{name}.js": [Suite("node")] for name in ("PrtkitLoader", "PrtkitModel", "clusteredPca", "sphericalHarmonics", "rotations")},
+    **{f"runtime/web/src/{name}.js": [Suite("node")] for name in ("PrtkitLoader", "PrtkitModel", "clusteredPca", "sphericalHarmonics", "rotations")},
 }
 
 

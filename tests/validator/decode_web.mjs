@@ -1,10 +1,10 @@
-// Compares the decoder of examples/web with vectors:
+// Compares the decoder of runtime/web with vectors:
 //   node decode_web.mjs BAKED SHIPPED
 // Prints the maximum difference, over vertices and colours, between the exit radiance of SHIPPED from the constants of its
 // shader and that of the vectors in BAKED, under a light of arbitrary coefficients, relative to the maximum radiance.
 import { readFileSync } from "node:fs";
-import { clustersOf, updateConstants, lightColumns, shaderRows } from "../../examples/web/src/clusteredPca.js";
-import { setsOf } from "../../examples/web/src/wholeExtension.js";
+import { clustersOf, updateConstants, lightColumns, shaderRows } from "../../runtime/web/src/clusteredPca.js";
+import { setsOf } from "../../runtime/web/src/wholeExtension.js";
 
 function open(path) {
   const file = readFileSync(path);

@@ -1,16 +1,16 @@
-// Compares the textures of examples/web for a volume with those of the runtime:
+// Compares the textures of runtime/web for a volume with those of the runtime:
 //   node update_web.mjs SHIPPED TEXTURES
 // TEXTURES contains words of visibility distances and of the index, and bits of half floats of light, one
 // after the other, under a sky of coefficients cos(1), cos(2), .. and suns half as strong towards +Y. Prints
 // the differences, and then exits with status 1. Half floats may differ by one step: the order of sums
 // differs.
 import { readFileSync } from "node:fs";
-import { lightColumns } from "../../examples/web/src/clusteredPca.js";
-import { halfFloat } from "../../examples/web/src/halfFloat.js";
-import { VolumeRelighter } from "../../examples/web/src/VolumeRelighter.js";
-import { atlasOf, indexTexels, visibilityTexels } from "../../examples/web/src/volumeTextures.js";
-import { volumeOf } from "../../examples/web/src/volumeTransfer.js";
-import { setsOf } from "../../examples/web/src/wholeExtension.js";
+import { lightColumns } from "../../runtime/web/src/clusteredPca.js";
+import { halfFloat } from "../../runtime/web/src/halfFloat.js";
+import { VolumeRelighter } from "../../runtime/web/src/VolumeRelighter.js";
+import { atlasOf, indexTexels, visibilityTexels } from "../../runtime/web/src/volumeTextures.js";
+import { volumeOf } from "../../runtime/web/src/volumeTransfer.js";
+import { setsOf } from "../../runtime/web/src/wholeExtension.js";
 
 const file = readFileSync(process.argv[2]);
 const length = file.readUInt32LE(12);

@@ -13,7 +13,7 @@ import {
   SphereGeometry,
 } from "three";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
-import { PrtkitPlugin } from "./PrtkitLoader.js";
+import { PrtkitPlugin } from "prtkit-web";
 import { Walk } from "./walk.js";
 
 const RADIUS = 0.25; // metres

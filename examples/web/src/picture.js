@@ -25,7 +25,7 @@ import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { HDRLoader } from "three/examples/jsm/loaders/HDRLoader.js";
 import { MeshoptDecoder } from "three/examples/jsm/libs/meshopt_decoder.module.js";
 import { Moving } from "./moving.js";
-import { halfFloatSky, lightOfSuns, PrtkitPlugin, projectInWorker, readLightFile, SunLights } from "./PrtkitLoader.js";
+import { halfFloatSky, lightOfSuns, PrtkitPlugin, projectInWorker, readLightFile, SunLights } from "prtkit-web";
 import { skyImage } from "./skyImage.js";
 import { truncated, WINDOWS } from "./windows.js";
 import { ExposureMeter } from "./exposureMeter.js";

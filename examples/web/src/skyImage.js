@@ -1,7 +1,7 @@
 // Computes an image of light given only as spherical harmonics, to be shown behind the model.
 
 import { DataTexture, FloatType, RGBAFormat } from "three";
-import { evaluateSh } from "./sphericalHarmonics.js";
+import { evaluateSh } from "prtkit-web";
 
 const HEIGHT = 64;
 

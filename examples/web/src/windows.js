@@ -1,7 +1,7 @@
 // Windows over the bands of a light, as in `prt render --window`: spherical harmonics of few bands ring
 // around strong lights, which is visible as dark and coloured shadows.
 
-import { ShLight } from "./sphericalHarmonics.js";
+import { ShLight } from "prtkit-web";
 
 /** Returns the first bands of a light. */
 export function truncated(light, order) {

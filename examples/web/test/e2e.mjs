@@ -12,8 +12,8 @@ import { fileURLToPath } from "node:url";
 import { chromium } from "playwright-core";
 import { preview } from "vite";
 import { distFolder } from "../tools/folders.mjs";
-import { bakedModel } from "./bakedModel.js";
-import { setIn } from "./transferSets.js";
+import { bakedModel } from "../../../runtime/web/test/bakedModel.js";
+import { setIn } from "../../../runtime/web/test/transferSets.js";
 
 const web = fileURLToPath(new URL("../", import.meta.url));
 const prt = process.env.PRT ?? join(web, "../../build/release/cli/prt");

@@ -11,9 +11,7 @@
 namespace prt {
 namespace {
 
-constexpr std::size_t kLanes = kLaneCount;
-
-/// Range of blocks of kLanes rows.
+/// Range of blocks of kLaneCount rows.
 struct Blocks {
     std::size_t first, last;
 };
@@ -25,12 +23,13 @@ struct ColorSums {
     Narrow even[3], odd[3];
 };
 
-/// Adds the products of a term, [Stored][count][kLanes], with its light, [3][count].
+/// Adds the products of a term, [Stored][count][kLaneCount], with its light, [3][count].
 template <std::size_t Stored>
 [[gnu::always_inline]] inline void add_term(const float* from, const float* light, std::size_t count,
                                             ColorSums& sums) {
     const auto product = [&](std::size_t c, std::size_t i) __attribute__((always_inline)) {
-        return floats_at<kNarrow>(from + ((Stored == 1 ? 0 : c) * count + i) * kLanes) * light[c * count + i];
+        return floats_at<kNarrow>(from + ((Stored == 1 ? 0 : c) * count + i) * kLaneCount) *
+               light[c * count + i];
     };
     std::size_t i = 0;
     for (; i + 2 <= count; i += 2)
@@ -54,7 +53,7 @@ template <std::size_t Stored>
             add_term<1>(matrix, light, count, sums);
         else
             add_term<3>(matrix, light, count, sums);
-        matrix += layout.numbers_of(term) * kLanes;
+        matrix += layout.numbers_of(term) * kLaneCount;
         light += 3 * count;
     }
     for (std::size_t lane = 0; lane < std::min<std::size_t>(kNarrow, rows); ++lane)
@@ -66,8 +65,9 @@ PRT_TWO_CLONES
 void update_rows(const TransferLayout& layout, const float* matrix, const float* light, const Blocks& blocks,
                  std::size_t rows, glm::vec4* constants) {
     for (std::size_t block = blocks.first; block < blocks.last; ++block)
-        for (std::size_t row = block * kLanes; row < std::min(rows, (block + 1) * kLanes); row += kNarrow)
-            update_some(layout, matrix + block * layout.dimension() * kLanes + row % kLanes, light,
+        for (std::size_t row = block * kLaneCount; row < std::min(rows, (block + 1) * kLaneCount);
+             row += kNarrow)
+            update_some(layout, matrix + block * layout.dimension() * kLaneCount + row % kLaneCount, light,
                         rows - row, constants + row);
 }
 
@@ -108,10 +108,11 @@ ClusterLighting::ClusterLighting(const ClusteredTransfer& transfer)
     check_rows(transfer.bases);
     const std::vector<float> rows = rows_of_stored(transfer); // all outputs, one after another
     const std::size_t dimension = layout_.dimension();
-    matrix_.assign((rows_ + kLanes - 1) / kLanes * kLanes * dimension, 0.0f);
+    matrix_.assign((rows_ + kLaneCount - 1) / kLaneCount * kLaneCount * dimension, 0.0f);
     for (std::size_t row = 0; row < rows_; ++row)
         for (std::size_t i = 0; i < dimension; ++i)
-            matrix_[(row / kLanes * dimension + i) * kLanes + row % kLanes] = rows[row * dimension + i];
+            matrix_[(row / kLaneCount * dimension + i) * kLaneCount + row % kLaneCount] =
+                rows[row * dimension + i];
 }
 
 void ClusterLighting::update(const LightingView& lighting, std::span<glm::vec4> constants) const {
@@ -134,7 +135,8 @@ void ClusterLighting::update(const LightingView& lighting, std::span<glm::vec4> 
         color += count;
     }
     update_rows(layout_, matrix_.data(), separate.data(),
-                {first / kLanes, (std::min(last, rows_) + kLanes - 1) / kLanes}, rows_, constants.data());
+                {first / kLaneCount, (std::min(last, rows_) + kLaneCount - 1) / kLaneCount}, rows_,
+                constants.data());
 }
 
 void free_rows(ClusteredTransfer& transfer) {

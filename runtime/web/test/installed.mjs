@@ -12,7 +12,7 @@ import { fileURLToPath } from "node:url";
 import { chromium } from "playwright-core";
 import { build, createServer, preview } from "vite";
 import { environmentRotation, rotatedBy } from "../src/rotations.js";
-import { distFolder } from "../tools/folders.mjs";
+import { distFolder } from "../../../examples/web/tools/folders.mjs";
 import { ballScene } from "./ballScene.js";
 
 const web = fileURLToPath(new URL("../", import.meta.url));

@@ -1,6 +1,9 @@
 import type { Box3, Data3DTexture, DataTexture, DirectionalLight, Group, InstancedMesh, IUniform, LightProbe, Object3D, Scene, Vector3 } from "three";
 import type { GLTF, GLTFLoaderPlugin, GLTFParser } from "three/examples/jsm/loaders/GLTFLoader.js";
 
+/** Returns the order² values of the SH basis in the unit direction (x, y, z); writes them to `out`. */
+export function evaluateSh(order: number, x: number, y: number, z: number, out?: Float64Array): Float64Array;
+
 /** Lighting as spherical harmonics, for rotation about +Y. */
 export class ShLight {
   readonly order: number;

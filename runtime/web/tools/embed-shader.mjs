@@ -27,4 +27,4 @@ function embed(folder, name) {
 }
 
 for (const name of runtime) embed("shaders/", name);
-for (const name of ["sunLight", "sunLoop", "transferVertex", "volumeLight"]) embed("examples/web/src/", `${name}.glsl`);
+for (const name of ["sunLight", "sunLoop", "transferVertex", "volumeLight"]) embed("runtime/web/src/", `${name}.glsl`);

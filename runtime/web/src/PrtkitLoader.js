@@ -46,7 +46,7 @@ export { PrtkitModel } from "./PrtkitModel.js";
 export { PrtkitOccluders } from "./PrtkitOccluders.js";
 export { PrtkitVolume } from "./PrtkitVolume.js";
 export { projectInWorker } from "./projectInWorker.js";
-export { ShLight } from "./sphericalHarmonics.js";
+export { evaluateSh, ShLight } from "./sphericalHarmonics.js";
 export { SunLights } from "./SunLights.js";
 export { VOLUME as volumeShader } from "./transferShader.js";
 
