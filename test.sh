@@ -81,7 +81,7 @@ optimised() {
 
 # Needs the build of `sanitize`.
 web() {
-    check_page sanitize knot 16 '^knot, (small|normal): |^knot: with separate suns|without transfer'
+    PRT_QUALITIES=small,normal check_page sanitize knot 16 '^knot, (small|normal): |^knot: with separate suns|without transfer'
 }
 
 # Needs the build of `optimised`.

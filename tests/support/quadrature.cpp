@@ -40,12 +40,20 @@ std::vector<SpherePoint> sphere_quadrature(int n) {
     return points;
 }
 
-double integrate_sphere(int n, const std::function<double(const glm::dvec3&)>& f) {
-    double sum = 0;
+std::vector<SpherePoint> sphere_cells(int n) {
+    std::vector<SpherePoint> points;
+    const double weight = 2 * pi / (n * static_cast<double>(n));
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < 2 * n; ++j)
-            sum += f(direction(2 * (i + 0.5) / n - 1, pi * (j + 0.5) / n));
-    return sum * 2 * pi / (n * static_cast<double>(n));
+            points.push_back({direction(2 * (i + 0.5) / n - 1, pi * (j + 0.5) / n), weight});
+    return points;
+}
+
+double integrate_sphere(int n, const std::function<double(const glm::dvec3&)>& f) {
+    double sum = 0;
+    for (const auto& [w, weight] : sphere_cells(n))
+        sum += f(w) * weight;
+    return sum;
 }
 
 } // namespace prt::test

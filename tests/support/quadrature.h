@@ -16,7 +16,10 @@ struct SpherePoint {
 /// polynomials of degree below 2 `n`.
 std::vector<SpherePoint> sphere_quadrature(int n);
 
-/// ∫ f over the sphere by a midpoint rule of n x 2n cells in (z, azimuth): for functions with edges.
+/// Midpoints of n x 2n cells in (z, azimuth) of equal area: for functions with edges.
+std::vector<SpherePoint> sphere_cells(int n);
+
+/// ∫ f over the sphere by the points of sphere_cells(n).
 double integrate_sphere(int n, const std::function<double(const glm::dvec3&)>& f);
 
 } // namespace prt::test

@@ -1,7 +1,7 @@
 // Makes the page's models with prt: public/models/ and public/skies/. Uses the example scenes and sky;
 // add others with
 //   npm run models -- scene.glb sky.hdr
-// PRT_RAYS and PRT_SCENES (knot,tree) reduce the work for tests. An interrupted run continues: bakes stay in
+// PRT_RAYS, PRT_SCENES (knot,tree) and PRT_QUALITIES (small,normal,fine,before) reduce the work for tests. An interrupted run continues: bakes stay in
 // work/ until all models are done. prt and example_scenes are those of build/release (./demo.sh builds them),
 // or in PRT and PRT_EXAMPLE_SCENES.
 import { execFileSync } from "node:child_process";
@@ -34,11 +34,13 @@ const names = specs.map((spec) => spec.split(":")[0]);
 const times = process.env.PRT_SCENES ? [] : ["noon", "evening", "night"]; // for models with lamps
 if (!existsSync(join(work, "sky.exr"))) run(exampleScenes, work, ...specs, ...(names.includes("figure") ? [] : ["figure"]), ...times, "sky"); // the sky is written last
 
+const qualities = process.env.PRT_QUALITIES?.split(",");
+const isWanted = (title) => qualities?.includes(title) ?? true;
 const levels = [
   { name: "u32", title: "small", options: ["--preset", "u32"] },
   { name: "u64", title: "normal", options: ["--preset", "u64"] },
   { name: "u128", title: "fine", options: ["--clusters", "64", "--components", "16", "--bits", "122"] }, // four words with the cluster
-];
+].filter(({ title }) => isWanted(title));
 /** Options of a model close to the bake: the maximum number of components of a shader, without rounding. */
 const asBaked = ["--bits", "float", "--clusters", "16", "--components", "48", "--predictors", "none", "--seam-weight", "0"];
 const cameras = {
@@ -102,7 +104,7 @@ const models = scenes.map(({ name, file }, i) => {
       litRms: figures.lit_rms,
     };
   };
-  const before = large.has(name) ? undefined : compressed("baked", asBaked);
+  const before = large.has(name) || !isWanted("before") ? undefined : compressed("baked", asBaked);
   return {
     name,
     title: name,
