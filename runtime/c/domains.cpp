@@ -94,6 +94,21 @@ std::vector<prt_shared_instances::Range> ranges_of(const prt::Model& model) {
 
 } // namespace
 
+std::optional<prt_shared_instances> prt::c::shared_instances(Model& model) {
+    if (model.instances.empty())
+        return std::nullopt;
+    sort_by_mesh(model.instances);
+    const ClusteredTransfer& transfer = model.vertices->transfer;
+    InstanceRelighter relighter(transfer, relit_instances(model.instances, model.scene, transfer));
+    std::vector<glm::vec4> worlds;
+    for (const FileInstance& instance : model.instances) {
+        const glm::mat4 rotated(glm::transpose(glm::translate(instance.world, model.scene.origin)));
+        worlds.insert(worlds.end(), {rotated[0], rotated[1], rotated[2]});
+    }
+    std::vector<glm::vec4> tables = relighter.table();
+    return prt_shared_instances{std::move(relighter), std::move(worlds), std::move(tables), ranges_of(model)};
+}
+
 extern "C" {
 
 prt_status prt_volume_load(const char* path, prt_volume** volume, prt_message* message) {
