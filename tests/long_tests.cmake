@@ -23,6 +23,11 @@ set(long_tests
     Subsurface.IsFinite* SunShadowPictures.AgreeWithRays* Suns.SumWithTheRemainder* Sweep.*
     TargetError.FindsTheWindow* TargetError.IsReached* TargetError.NeedsFewer* Trace.NoCluster*
     LightmapViewer.CompressesABake* Lightmaps.TouchingBlocks* NoiseFilter.ChangesLittle* NoiseFilter.RemovesMostNoiseOfASky*
+    LobesCommand.MeasuresLightWithATargetError* LightmapViewer.SavesTheCompressed* NoiseFilter.RemovesMostNoise
+    PathTraced.ErrorsAreSmall* SideFile.ExcessiveReferences* HostileGltf.SharedMeshesAreBounded* ExampleFigure.ItsFeet*
+    Kinds/VertexShader.AgreesWithCppPerVertex/7 PlainSkies.AreFinite* Search.FindsFewClusters* Trace.RecordsEveryTrial*
+    LightmapBake.FiltersNoise* ViewerTest.SavesTheCompressed* Orders/VolumePass.MatchesCpp/4 Orders/VolumePass.MatchesCpp/5
+    All/ShaderVariants.HaveTheBindings*/1 All/ShaderVariants.HaveTheBindings*/3 All/ShaderVariants.HaveTheBindings*/4 All/ShaderVariants.HaveTheBindings*/5 Script.EscapeCloses* FigureScript.SetsPaths* ViewerPictures.BakedOcclusion*
     SharedInstances.ErrorsDoNot* SharedInstances.KeepTheir* SharedInstances.LargeErrors* ViewerPictures.NumbersShow*
     ViewerPictures.SeparateSuns* ViewerTest.BakesAndShows* ViewerTest.LimitsTheBases* ViewerTest.ListsEvery*
     ViewerTest.OpensCompressed* ViewerTest.CombinesABake* ViewerTest.ReportsTransfer* VolumeBake.FitReduces*)
