@@ -1,12 +1,10 @@
 // Writes a refined file: vertices and triangles of a refinement, with all vertex data of the file.
 #include "prt/gltf/refinement.h"
 
+#include "bake/gltf/edit_meshes.h"
 #include "bake/gltf/gathered_accessor.h"
-#include "bake/gltf/make_meshes_unique.h"
 #include "bake/gltf/midpoint_accessor.h"
 #include "bake/gltf/midpoint_joints.h"
-#include "bake/gltf/reparse.h"
-#include "bake/gltf/write_set.h"
 
 #include <map>
 #include <optional>
@@ -98,13 +96,15 @@ private:
 } // namespace
 
 GltfDocument refined(GltfDocument document, const Scene& scene, const Refinement& refinement) {
-    named(document, [&](GltfContents& contents) {
-        make_meshes_unique(contents, scene);
-        contents.remove_transfer();
+    return edit_meshes(std::move(document), scene, [&](GltfContents& contents) {
+        DocumentRefiner(contents, scene, refinement).refine();
     });
-    document = reparse(document);
-    named(document, [&](GltfContents& contents) { DocumentRefiner(contents, scene, refinement).refine(); });
-    return reparse(document);
+}
+
+GltfDocument refined(SharedDocument shared, const Scene& stored, const Refinement& refinement) {
+    return edit_shared_meshes(std::move(shared), stored, [&](GltfContents& contents) {
+        DocumentRefiner(contents, stored, refinement).refine();
+    });
 }
 
 } // namespace prt

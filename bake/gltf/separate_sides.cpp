@@ -1,11 +1,9 @@
 // Splits double-sided triangles into two single-sided ones.
 #include "bake/gltf/separate_sides.h"
 
+#include "bake/gltf/edit_meshes.h"
 #include "bake/gltf/gathered_accessor.h"
-#include "bake/gltf/make_meshes_unique.h"
 #include "bake/gltf/material_choices.h"
-#include "bake/gltf/reparse.h"
-#include "bake/gltf/write_set.h"
 #include "prt/core/error.h"
 #include "runtime/load/accessor.h"
 
@@ -250,23 +248,15 @@ private:
 
 GltfDocument with_separate_sides(GltfDocument document, const Scene& scene,
                                  const std::vector<bool>& triangles) {
-    named(document, [&](GltfContents& contents) {
-        make_meshes_unique(contents, scene);
-        contents.remove_transfer();
-    });
-    document = reparse(document);
-    named(document, [&](GltfContents& contents) { SideSeparator(contents, scene, triangles).separate(); });
-    return reparse(document);
+    return edit_meshes(std::move(document), scene,
+                       [&](GltfContents& contents) { SideSeparator(contents, scene, triangles).separate(); });
 }
 
 GltfDocument with_separate_sides_of_meshes(SharedDocument shared, const Scene& stored,
                                            const std::vector<bool>& triangles) {
-    named(shared.document, [&](GltfContents& contents) { make_meshes_unique(contents, stored); });
-    GltfDocument document = reparse(shared.document, Instancing::separate);
-    named(document, [&](GltfContents& contents) { SideSeparator(contents, stored, triangles).separate(); });
-    document = reparse(document);
-    named(document, [](GltfContents& contents) { contents.remove_transfer(); });
-    return document;
+    return edit_shared_meshes(std::move(shared), stored, [&](GltfContents& contents) {
+        SideSeparator(contents, stored, triangles).separate();
+    });
 }
 
 } // namespace prt

@@ -3,6 +3,7 @@
 #include "bake/refine/bisection.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace prt {
 namespace {
@@ -120,6 +121,30 @@ void EdgeMarks::mark(std::uint32_t edge) {
         for (std::uint32_t i = first_[e]; i < first_[e + 1]; ++i)
             waiting.push_back(edges_.of_triangle[triangles_[i]][edges_.longest[triangles_[i]]]);
     }
+}
+
+std::vector<bool> fixed_edges(const WeldedEdges& edges, const std::vector<bool>& kept) {
+    std::vector<std::uint32_t> order(edges.of_triangle.size());
+    std::iota(order.begin(), order.end(), 0u);
+    const auto longest = [&](std::uint32_t t) { return edges.of_triangle[t][edges.longest[t]]; };
+    std::erase_if(order, [&](std::uint32_t t) { return longest(t) == kNoEdge; });
+    // Marks spread to longer edges, so that triangles with the longest edges are decided first.
+    std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
+        const double x = edges.lengths[longest(a)], y = edges.lengths[longest(b)];
+        return x != y ? x > y : longest(a) > longest(b);
+    });
+    std::vector<bool> fixed(edges.lengths.size());
+    for (std::size_t first = 0, last = 0; first < order.size(); first = last) {
+        // All triangles with one longest edge: a kept one fixes it before the others read it.
+        while (last < order.size() && longest(order[last]) == longest(order[first]))
+            if (kept[order[last++]])
+                fixed[longest(order[first])] = true;
+        for (std::size_t i = first; i < last; ++i)
+            for (const std::uint32_t e : edges.of_triangle[order[i]])
+                if (e != kNoEdge && (kept[order[i]] || fixed[longest(order[i])]))
+                    fixed[e] = true;
+    }
+    return fixed;
 }
 
 Bisection bisect(const Scene& scene, const WeldedEdges& edges, const EdgeMarks& marks) {

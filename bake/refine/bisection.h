@@ -38,6 +38,9 @@ private:
     std::size_t vertices_ = 0;
 };
 
+/// Returns the edges that cannot be marked without splitting a triangle that `kept` contains: [edges].
+std::vector<bool> fixed_edges(const WeldedEdges& edges, const std::vector<bool>& kept);
+
 /// A triangle of the finer scene as a part of the original triangle.
 struct Part {
     std::uint32_t whole;               ///< triangle of the original scene

@@ -52,14 +52,14 @@ glm::vec2 clamped(glm::dvec2 uv) {
 
 } // namespace
 
-LitMesh::LitMesh(const Scene& scene)
+LitMesh::LitMesh(const Scene& scene, const std::vector<bool>& kept)
     : surfaces(scene, textures), receivers(without_back_sides(vertex_receivers(scene))) {
     for (std::uint32_t t = 0; t < surfaces.triangles(); ++t) {
         const std::vector<glm::vec3>& at = receivers.receivers.positions;
         const glm::uvec3& c = surfaces.corners(t);
         const glm::uvec3 lit = corner_receivers(surfaces, receivers, t, false);
         const glm::dvec3 a(at[c.x]);
-        const bool dark = glm::any(glm::equal(lit, glm::uvec3(kNoReceiver)));
+        const bool dark = kept[surfaces.primitive(t)] || glm::any(glm::equal(lit, glm::uvec3(kNoReceiver)));
         areas.push_back(
             dark ? 0 : 0.5 * glm::length(glm::cross(glm::dvec3(at[c.y]) - a, glm::dvec3(at[c.z]) - a)));
     }

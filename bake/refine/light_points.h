@@ -17,14 +17,15 @@ namespace prt {
 
 /// A mesh over which light is interpolated, with front sides only.
 struct LitMesh {
-    /// Keeps a reference to `scene`.
-    explicit LitMesh(const Scene& scene);
+    /// Keeps a reference to `scene`. `kept`: [primitives] true: triangles of the primitive have an area of 0.
+    LitMesh(const Scene& scene, const std::vector<bool>& kept);
     LitMesh(const LitMesh&) = delete;
 
     const std::vector<Texture> textures; ///< always empty
     const Surfaces surfaces;
     const TransportReceivers receivers;
-    std::vector<double> areas; ///< [triangles] m²; zero if a corner has no normal and therefore stays dark
+    std::vector<double> areas; ///< [triangles] m²; zero if a corner has no normal and therefore
+                               ///< stays dark, and in kept primitives
 };
 
 /// Direct light at points, from two independent scrambles of rays: their product has no noise. A random half

@@ -35,12 +35,22 @@ void check_options(const BakeOptions& options, const RefineOptions& how) {
         throw Error("--refine does not support --fit vertex; use --fit auto or surface");
 }
 
+/// Returns [primitives] whether a primitive belongs to one of `nodes`.
+std::vector<bool> primitives_of(const Scene& scene, std::vector<int> nodes) {
+    std::ranges::sort(nodes);
+    std::vector<bool> result;
+    for (const Primitive& primitive : scene.primitives)
+        result.push_back(std::ranges::binary_search(nodes, primitive.node));
+    return result;
+}
+
 /// Refines a scene in rounds.
 class Refiner {
 public:
     Refiner(const Scene& scene, const TraceScene& traced, Tracer& tracer, const BakeOptions& options,
             const RefineOptions& how)
-        : options_(options), how_(how), points_(traced, tracer, options, how.target), finer_(scene) {
+        : options_(options), how_(how), points_(traced, tracer, options, how.target),
+          kept_(primitives_of(scene, how.kept_nodes)), finer_(scene) {
         const Bounds box = bounds(scene);
         const glm::vec3 size = box.high - box.low;
         min_edge_ = kMinEdge * 0.5 * static_cast<double>(std::max({size.x, size.y, size.z}));
@@ -81,7 +91,7 @@ public:
 
 private:
     SurfaceError measure(const Progress& progress) {
-        const LitMesh mesh(finer_);
+        const LitMesh mesh(finer_, kept_);
         points_.spread(mesh, progress.range(shown_, shown_ + 0.1 * (1 - shown_)));
         shown_ += 0.1 * (1 - shown_);
         SurfaceError error = surface_error(mesh, points_, options_.threads);
@@ -94,16 +104,24 @@ private:
         return error;
     }
 
+    std::vector<bool> kept_triangles() const {
+        std::vector<bool> result;
+        for (std::size_t p = 0; p < kept_.size(); ++p)
+            result.insert(result.end(), finer_.primitives[p].triangles.size(), kept_[p]);
+        return result;
+    }
+
     double allowed(const SurfaceError& error) const { return how_.target * how_.target * error.norm; }
 
     /// Returns triangles that can be split, largest errors first: enough to remove the excess error, or the
     /// share of a round.
     std::vector<std::uint32_t> worst_triangles(const SurfaceError& error, const WeldedEdges& edges) const {
         const std::vector<double>& e = error.of_triangles;
+        const std::vector<bool> fixed = fixed_edges(edges, kept_triangles());
         std::vector<std::uint32_t> worst;
         for (std::uint32_t t = 0; t < e.size(); ++t) {
             const std::uint32_t longest = edges.of_triangle[t][edges.longest[t]];
-            if (e[t] > 0 && longest != kNoEdge && edges.lengths[longest] >= 2 * min_edge_)
+            if (e[t] > 0 && longest != kNoEdge && !fixed[longest] && edges.lengths[longest] >= 2 * min_edge_)
                 worst.push_back(t);
         }
         std::stable_sort(worst.begin(), worst.end(),
@@ -144,6 +162,7 @@ private:
     const BakeOptions& options_;
     const RefineOptions& how_;
     LightPoints points_;
+    std::vector<bool> kept_; ///< [primitives] true: triangles are not split
     Scene finer_;
     double min_edge_ = 0;  ///< metres
     std::size_t most_ = 0; ///< vertices

@@ -243,26 +243,36 @@ void add_refinement(CLI::App* command, BakeArguments& a) {
                 "  light of the sky, not of lamps")
         .detail("the written mesh contains the new vertices; coarser levels of detail are not split")
         .detail("stops earlier at the maximum number of vertices, and at very short edges; default: no split")
-        .detail("fits light to the surface (--fit surface); not with --fit vertex, --texels and\n"
-                "  --instances shared; --instances auto acts as own")
+        .detail("fits light to the surface (--fit surface); not with --fit vertex and --texels\n"
+                "--instances shared: meshes that share transfer are not split; --instances auto acts as own")
         .whole_number("vertices", 1, std::numeric_limits<int>::max(),
                       "maximum number of vertices, 1 or more [4 x those of the scene, at least 20000]",
                       [&a](int count) { a.finer.max_vertices = static_cast<std::size_t>(count); })
         .add(command);
 }
 
-/// Replaces document and scene by the refined ones.
-RefineStatistics refine(const BakeArguments& a, GltfDocument& document, Scene& scene, Session& session) {
+/// Replaces document and scene by the refined ones, in which instances of `meshes` are unchanged. Returns
+/// nothing if refinement is off.
+std::optional<RefineStatistics> refine(const BakeArguments& a, GltfDocument& document, Scene& scene,
+                                       SharedMeshes& meshes, Session& session) {
+    if (!a.finer.refine)
+        return std::nullopt;
+    RefineOptions how{.target = *a.finer.refine, .max_vertices = a.finer.max_vertices};
+    for (const SharedMesh& mesh : meshes.meshes)
+        for (const MeshPlacement& placement : mesh.placements)
+            how.kept_nodes.push_back(placement.node);
     ProgressBar bar = session.progress_bar("refining");
-    const RefineResult result = prt::refine(
-        scene, a.options, {.target = *a.finer.refine, .max_vertices = a.finer.max_vertices}, bar.progress());
+    const RefineResult result = prt::refine(scene, a.options, how, bar.progress());
     if (result.statistics.rounds == 0)
         return result.statistics;
-    document = refined(std::move(document), scene, result.refinement);
+    document = meshes.meshes.empty() ? refined(std::move(document), scene, result.refinement)
+                                     : pipeline::refined(document, scene, meshes, result.refinement);
     Scene finer = extract_scene(document);
     leave_out_shadows(finer, a.no_shadow);
     finer.notices = std::move(scene.notices); // notices of the input file
     scene = std::move(finer);
+    if (!meshes.meshes.empty())
+        meshes = find_shared_meshes(document, scene, a.options, a.levels).meshes;
     return result.statistics;
 }
 
@@ -275,13 +285,10 @@ struct Baked {
 Baked bake_scene(const BakeArguments& a, GltfDocument& document, Scene& scene, Session& session) {
     leave_out_shadows(scene, a.no_shadow);
     Baked baked;
-    BakeOptions options = a.options;
-    if (a.finer.refine) {
-        baked.refinement = refine(a, document, scene, session);
-        options.fit = FitMode::surface; // the fit with which the error was measured
-    }
+    SharedMeshes none;
+    baked.refinement = refine(a, document, scene, none, session);
     ProgressBar bar = session.progress_bar("baking");
-    baked.result = bake(scene, options, bar.progress(), MeasureErrors::yes);
+    baked.result = bake(scene, a.options, bar.progress(), MeasureErrors::yes);
     return baked;
 }
 
@@ -327,11 +334,8 @@ void write_vertices(const BakeArguments& a, GltfDocument& document, const Scene&
         levels->scene = extract_levels(document);
     Scene& all = levels->scene.scene;
     leave_out_shadows(all, a.no_shadow);
-    BakeOptions options = a.options;
-    if (a.finer.refine)
-        options.fit = FitMode::surface;
     ProgressBar bar = session.progress_bar("levels of detail");
-    bake_levels(*levels, baked.transfer, options, bar.progress());
+    bake_levels(*levels, baked.transfer, a.options, bar.progress());
     BakedTransfer whole{std::move(levels->bake.transfer), baked.record, baked.storage};
     write_transfer(document, all, whole);
 }
@@ -407,6 +411,8 @@ void run_instances(const BakeArguments& a, SharedMeshes meshes, GltfDocument& do
                    Session& session) {
     leave_out_shadows(scene, a.no_shadow);
     about(a.scene, [&] { separate_sides_of_meshes(sides_of(a), meshes, document, scene); });
+    const std::optional<RefineStatistics> refinement =
+        about(a.scene, [&] { return refine(a, document, scene, meshes, session); });
     std::optional<BakedLevels> levels = about(
         a.scene, [&] { return find_levels(a.levels, a.scene, document, a.options.threads, print_notices); });
     const FlatScene flat{document, scene, a.no_shadow};
@@ -433,6 +439,8 @@ void run_instances(const BakeArguments& a, SharedMeshes meshes, GltfDocument& do
                                      .scene = scene,
                                      .baked = baked,
                                      .error = a.instances.error,
+                                     .refinement = refinement,
+                                     .refine_target = a.finer.refine.value_or(0),
                                      .bytes = session.write(a.output, file)});
     if (levels)
         add_level_bake(*levels, report);
@@ -469,6 +477,8 @@ void run(BakeArguments a, Session& session) {
     a.reading.outputs =
         check_outputs({{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}}, inputs);
     a.options.repairs.bad_textures = a.reading.bad_textures;
+    if (a.finer.refine && a.options.fit == FitMode::automatic)
+        a.options.fit = FitMode::surface; // the fit with which the refinement measures errors
     GltfDocument document = load_gltf(a.scene, a.reading);
     Scene scene = extract_scene(document);
     read_occluders(document); // which it passes on
@@ -480,7 +490,7 @@ void run(BakeArguments a, Session& session) {
         room = about(a.scene, [&] { return make_room(a.texels, a.scene, document, scene); });
     const SharedMeshes meshes = about(a.scene, [&] {
         return meshes_to_share(a.instances, document, scene,
-                               {a.options, a.texels.given() || a.finer.refine.has_value(), a.levels});
+                               {a.options, a.texels.given(), a.finer.refine.has_value(), a.levels});
     });
     if (a.texels.given() && a.levels != LevelMode::ignore && has_levels(document))
         print_notices(a.scene.string(), {"coarser levels of detail get no lightmap"});

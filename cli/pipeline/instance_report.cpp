@@ -2,6 +2,7 @@
 
 #include "cli/pipeline/instance_report.h"
 
+#include "cli/report/bake_report.h"
 #include "cli/report/transfer_words.h"
 
 #include <fmt/core.h>
@@ -83,6 +84,8 @@ Report instance_report(const InstanceOutcome& outcome) {
             "percentile "
             "{instances/lamp_error_relative_l2/percentile_99:.2f%}, maximum "
             "{instances/lamp_error_relative_l2/max:.2f%} (at the vertices, all lamps together)");
+    if (outcome.refinement)
+        add_refinement(*outcome.refinement, outcome.refine_target, report);
     for (std::size_t i = 0; i < s.notices.size(); ++i)
         report.sentences.push_back(fmt::format("{{notices/{}}}", i));
     report.sentences.emplace_back(

@@ -2,9 +2,11 @@
 
 #include "cli/pipeline/instance_sharing.h"
 #include "cli/report/report.h"
+#include "prt/bake/refine.h"
 #include "prt/core/instances.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace prt::pipeline {
@@ -14,7 +16,9 @@ struct InstanceOutcome {
     std::string output;
     const Scene& scene; ///< unique
     const InstancedBake& baked;
-    double error = 0;         ///< allowed error of an instance
+    double error = 0;                                ///< allowed error of an instance
+    std::optional<RefineStatistics> refinement = {}; ///< empty: the mesh is not refined
+    double refine_target = 0;
     std::uintmax_t bytes = 0; ///< file size
 };
 

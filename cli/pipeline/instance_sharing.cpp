@@ -74,6 +74,14 @@ std::set<int> leveled_nodes(const GltfDocument& document) {
     return nodes;
 }
 
+/// Returns the indices of the primitives of `scene`, by node and primitive of the file.
+std::map<std::pair<int, int>, std::size_t> primitives_by_node(const Scene& scene) {
+    std::map<std::pair<int, int>, std::size_t> result;
+    for (std::size_t p = 0; p < scene.primitives.size(); ++p)
+        result[{scene.primitives[p].node, scene.primitives[p].primitive}] = p;
+    return result;
+}
+
 /// Returns the transfer of the flat scene. That of instances is zero: levels do not read it.
 Transfer flat_transfer(const FlatScene& flat, const InstancedBake& baked) {
     const Transfer& stored = baked.bake.baked.transfer;
@@ -82,15 +90,14 @@ Transfer flat_transfer(const FlatScene& flat, const InstancedBake& baked) {
     for (const SharedMesh& mesh : baked.meshes.meshes)
         for (const MeshPlacement& placement : mesh.placements)
             shared.insert(placement.node);
-    std::map<std::pair<int, int>, std::size_t> arrays; // by node and primitive of the stored scene
-    for (const Primitive& primitive : baked.stored.primitives)
-        arrays[{primitive.node, primitive.primitive}] = primitive.vertices;
+    const std::map<std::pair<int, int>, std::size_t> primitives = primitives_by_node(baked.stored);
     for (const Primitive& primitive : flat.scene.primitives) {
         if (shared.contains(primitive.node))
             continue;
         const int node = baked.node_of[static_cast<std::size_t>(primitive.node)];
+        const Primitive& same = baked.stored.primitives[primitives.at({node, primitive.primitive})];
         const VertexArray &to = flat.scene.vertex_arrays[primitive.vertices],
-                          &from = baked.stored.vertex_arrays[arrays.at({node, primitive.primitive})];
+                          &from = baked.stored.vertex_arrays[same.vertices];
         for (std::size_t v = 0; v < to.size(); ++v)
             std::ranges::copy(stored.vector(from.first_receiver + v),
                               all.vector(to.first_receiver + v).begin());
@@ -126,11 +133,10 @@ SharedMeshes meshes_to_share(const InstanceArguments& arguments, const GltfDocum
         return {};
     }
     const bool must = arguments.mode == InstanceMode::shared;
-    if (asked.other) {
-        if (must)
-            throw Error("--instances shared is for vertices as they are: leave out --texels and --refine");
+    if (asked.texels && must)
+        throw Error("--instances shared is for vertices: leave out --texels");
+    if (asked.texels || (asked.refined && !must))
         return {};
-    }
     FoundMeshes found = find_shared_meshes(document, scene, asked.options, asked.levels);
     SharedMeshes& meshes = found.meshes;
     if (!must && !pays(arguments, meshes, scene))
@@ -152,6 +158,24 @@ SharedMeshes meshes_to_share(const InstanceArguments& arguments, const GltfDocum
                           "instances of their mesh: these are baked alone",
                           found.other_scales)});
     return meshes;
+}
+
+GltfDocument refined(const GltfDocument& document, const Scene& scene, const SharedMeshes& meshes,
+                     const Refinement& refinement) {
+    SharedDocument shared = with_shared_meshes(document, meshes.meshes);
+    const Scene stored = extract_scene(shared.document);
+    Refinement of_stored = no_refinement(stored);
+    const std::map<std::pair<int, int>, std::size_t> primitives = primitives_by_node(stored);
+    for (std::size_t p = 0; p < scene.primitives.size(); ++p) {
+        const Primitive& flat = scene.primitives[p];
+        const int node = shared.node_of[static_cast<std::size_t>(flat.node)];
+        const auto to = primitives.find({node, flat.primitive});
+        if (to == primitives.end())
+            continue; // an instance
+        of_stored.triangles[to->second] = refinement.triangles[p];
+        of_stored.midpoints[stored.primitives[to->second].vertices] = refinement.midpoints[flat.vertices];
+    }
+    return prt::refined(std::move(shared), stored, of_stored);
 }
 
 InstancedBake bake_shared(const InstanceArguments& arguments, const FlatScene& flat, SharedMeshes meshes,

@@ -5,6 +5,7 @@
 #include "cli/pipeline/loaded_light.h"
 #include "cli/pipeline/model_levels.h"
 #include "prt/bake/instance_bake.h"
+#include "prt/gltf/refinement.h"
 
 #include <optional>
 #include <string>
@@ -30,7 +31,8 @@ struct InstanceArguments {
 
 struct AskedFor {
     const BakeOptions& options;
-    bool other; ///< texels or finer meshes, which do not support shared transfer
+    bool texels;  ///< the bake is for texels, which do not support shared transfer
+    bool refined; ///< meshes are refined: InstanceMode::automatic bakes all instances separately
     LevelMode levels = LevelMode::ignore;
 };
 
@@ -70,6 +72,10 @@ struct FlatScene {
 /// cannot be read.
 InstancedBake bake_shared(const InstanceArguments& arguments, const FlatScene& flat, SharedMeshes meshes,
                           const BakeOptions& options, const Progress& progress);
+
+/// Returns `document` with `refinement`, which must not change shared meshes. `scene` is the flat scene.
+GltfDocument refined(const GltfDocument& document, const Scene& scene, const SharedMeshes& meshes,
+                     const Refinement& refinement);
 
 /// Writes transfer and factors into `baked.document`. `levels`: coarser levels of the nodes of `flat` that do
 /// not share; their transfer is added. May be null.

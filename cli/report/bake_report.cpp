@@ -19,21 +19,21 @@
 namespace prt::pipeline {
 namespace {
 
-Json refinement_json(const RefineStatistics& s, double target) {
+void add_refinement_figures(const RefineStatistics& s, double target, Report& report) {
     const char* const ends[] = {"target", "vertices", "edges"};
-    return {{"refine_target_relative_l2", target},
-            {"refine_end", ends[static_cast<std::size_t>(s.end)]},
-            {"refine_rounds", s.rounds},
-            {"vertices_before", s.before.vertices},
-            {"vertices_after", s.after.vertices},
-            {"triangles_before", s.before.triangles},
-            {"triangles_after", s.after.triangles},
-            {"refine_error_before_relative_l2", s.before.error},
-            {"refine_error_relative_l2", s.after.error},
-            {"refine_points", s.points},
-            {"refine_rays_per_point", s.rays_per_point},
-            {"refine_rays", s.rays},
-            {"refine_seconds", s.seconds}};
+    add_figures(report, {{"refine_target_relative_l2", target},
+                         {"refine_end", ends[static_cast<std::size_t>(s.end)]},
+                         {"refine_rounds", s.rounds},
+                         {"vertices_before", s.before.vertices},
+                         {"vertices_after", s.after.vertices},
+                         {"triangles_before", s.before.triangles},
+                         {"triangles_after", s.after.triangles},
+                         {"refine_error_before_relative_l2", s.before.error},
+                         {"refine_error_relative_l2", s.after.error},
+                         {"refine_points", s.points},
+                         {"refine_rays_per_point", s.rays_per_point},
+                         {"refine_rays", s.rays},
+                         {"refine_seconds", s.seconds}});
 }
 
 void add_refinement_sentences(const RefineStatistics& s, Report& report) {
@@ -256,6 +256,11 @@ void add_sentences(const BakeOutcome& baked, const Json& statistics, Report& rep
 
 } // namespace
 
+void add_refinement(const RefineStatistics& refinement, double target, Report& report) {
+    add_refinement_figures(refinement, target, report);
+    add_refinement_sentences(refinement, report);
+}
+
 Report bake_report(const BakeOutcome& baked) {
     const BakeResult& result = baked.result;
     Report report;
@@ -277,7 +282,7 @@ Report bake_report(const BakeOutcome& baked) {
     add_figures(report, statistics);
     add_figures(report, {{"bytes_file", baked.bytes}});
     if (baked.refinement)
-        add_figures(report, refinement_json(*baked.refinement, baked.refine_target));
+        add_refinement_figures(*baked.refinement, baked.refine_target, report);
     add_sentences(baked, statistics, report);
     return report;
 }

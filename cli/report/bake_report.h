@@ -24,4 +24,7 @@ struct BakeOutcome {
 
 Report bake_report(const BakeOutcome& baked);
 
+/// Adds the figures of a refinement, and sentences about them.
+void add_refinement(const RefineStatistics& refinement, double target, Report& report);
+
 } // namespace prt::pipeline

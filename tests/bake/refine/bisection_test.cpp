@@ -139,6 +139,26 @@ Scene floor_of_two() {
     return scene;
 }
 
+TEST(Bisection, FixedEdgesAreThoseWhoseMarksReachAKeptTriangle) {
+    const Scene scene = split_by_chance(SceneBuilder().sphere({0, 0, 0}, 1, 4).build(), 2);
+    const WeldedEdges edges = welded_edges(scene);
+    std::mt19937 random(3);
+    std::vector<bool> kept(scene.triangles());
+    for (std::size_t t = 0; t < kept.size(); ++t)
+        kept[t] = random() % 40 == 0;
+    const std::vector<bool> fixed = fixed_edges(edges, kept);
+    EXPECT_GT(std::ranges::count(fixed, false), 0);
+    for (std::uint32_t e = 0; e < edges.lengths.size(); ++e) {
+        EdgeMarks marks(edges);
+        marks.mark(e);
+        bool reached = false;
+        for (std::size_t t = 0; t < kept.size(); ++t)
+            for (const std::uint32_t of : edges.of_triangle[t])
+                reached = reached || (kept[t] && marks.marked(of));
+        EXPECT_EQ(fixed[e], reached) << e;
+    }
+}
+
 TEST(Bisection, SplitsBothSidesOfASeam) {
     const Scene finer = split_by_chance(floor_of_two(), 7);
     std::size_t along[2] = {0, 0};

@@ -7,6 +7,7 @@
 #include "prt/gltf/refinement.h"
 
 #include <cstddef>
+#include <vector>
 
 namespace prt {
 
@@ -18,6 +19,9 @@ struct RefineOptions {
     /// Maximum number of vertices of the refined scene. 0: four times the number of vertices of the original
     /// scene, or 20 000 if that is larger.
     std::size_t max_vertices = 0;
+    /// Nodes of the scene whose triangles are not split, for example instances that share transfer. They cast
+    /// shadows, but their error is not measured. Triangles that share edges with them can also remain whole.
+    std::vector<int> kept_nodes = {};
 };
 
 /// Reason why a refinement ended.
@@ -27,7 +31,7 @@ enum class RefineEnd {
     edges,    ///< all triangles with an error have edges that are too short to split
 };
 
-/// Measurements of a refinement.
+/// Measurements of a refinement. Errors are those of the surfaces that can be split.
 struct RefineStatistics {
     RefineEnd end = RefineEnd::target; ///< reason why the refinement ended
     int rounds = 0; ///< number of rounds, each of which splits some triangles; 0: nothing was split

@@ -3,6 +3,7 @@
 // Mesh refinement: inserts vertices at edge midpoints, in memory and in files. Experimental.
 
 #include "prt/gltf/gltf.h"
+#include "prt/gltf/transfer_gltf.h"
 #include "prt/load/scene.h"
 
 #include <glm/vec3.hpp>
@@ -53,5 +54,10 @@ Scene refined(const Scene& scene, const Refinement& refinement);
 /// primitives without normals get flat normals, and transfer is removed. Throws `Error`, with the file name,
 /// if `document` is damaged or becomes too large.
 GltfDocument refined(GltfDocument document, const Scene& scene, const Refinement& refinement);
+
+/// Returns `shared.document`, a result of `with_shared_meshes` without factors, with `refinement` applied, in
+/// the form of `Instancing::nodes`. `stored` must be extracted from `shared.document`; `refinement` must not
+/// change the shared meshes. Otherwise like the function above.
+GltfDocument refined(SharedDocument shared, const Scene& stored, const Refinement& refinement);
 
 } // namespace prt

@@ -1,0 +1,33 @@
+// Rewrites the meshes of a document.
+#include "bake/gltf/edit_meshes.h"
+
+#include "bake/gltf/make_meshes_unique.h"
+#include "bake/gltf/reparse.h"
+#include "bake/gltf/write_set.h"
+
+#include <utility>
+
+namespace prt {
+
+GltfDocument edit_meshes(GltfDocument document, const Scene& scene,
+                         const std::function<void(GltfContents&)>& edit) {
+    named(document, [&](GltfContents& contents) {
+        make_meshes_unique(contents, scene);
+        contents.remove_transfer();
+    });
+    document = reparse(document);
+    named(document, edit);
+    return reparse(document);
+}
+
+GltfDocument edit_shared_meshes(SharedDocument shared, const Scene& stored,
+                                const std::function<void(GltfContents&)>& edit) {
+    named(shared.document, [&](GltfContents& contents) { make_meshes_unique(contents, stored); });
+    GltfDocument document = reparse(shared.document, Instancing::separate);
+    named(document, edit);
+    document = reparse(document);
+    named(document, [](GltfContents& contents) { contents.remove_transfer(); });
+    return document;
+}
+
+} // namespace prt
