@@ -76,6 +76,7 @@ void add_preset(CLI::App* command, SearchOptions& o) {
             "  goals: --max-error, --bytes-per-vertex and --shader-ops\n"
             "all except custom: up to 256 clusters; fewer for small meshes and lightmaps:\n"
             "  bases need at most twice the bytes of vertices or texels, or 4096 bytes if that is more\n"
+            "  u32x4 and u64x9 then have the clusters of u32 and u64: shaders need a loop\n"
             "presets except custom cannot be combined with goals, --clusters, --components and --bits")
         ->check(CLI::IsMember({"u32", "u64", "u32x4", "u64x9", "custom"}))
         ->type_name("u32|u64|u32x4|u64x9|custom")

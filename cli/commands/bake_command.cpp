@@ -219,8 +219,10 @@ void add_measurement(CLI::App* command, BakeOptions& options) {
     choice(command, "--denoise", options.repairs.denoise, kDenoise,
            "removal of the noise of rays from the baked light\n"
            "no effect with --refine, --fit surface (also if --fit auto chooses it), --method raster\n"
-           "no effect if --instances shares transfer; no effect on direct light of lamps, on probes of\n"
-           "  --volume, and on materials with subsurface scattering or diffuse transmission",
+           "if --instances shares transfer: effect only on bounces of lamps, and on coarser levels of\n"
+           "  --levels own\n"
+           "no effect on direct light of lamps, on probes of --volume, and on materials with subsurface\n"
+           "  scattering or diffuse transmission",
            "on");
     add_device(command, options.tracer);
     add_fit(command, options.fit,
@@ -228,6 +230,7 @@ void add_measurement(CLI::App* command, BakeOptions& options) {
             "not with --texels\n"
             "with --refine: auto acts as surface; vertex is an error\n"
             "with --target-error or --method raster, or if instances share transfer: auto acts as vertex\n"
+            "  light of lamps in a bake with shared transfer: as without it\n"
             "  surface fits shared transfer to the surface, but not the 52 bytes of an instance");
     add_method(command, options.tracer, "bounces, lamps, probes, errors for --refine, shared instances");
 }
@@ -240,7 +243,7 @@ void add_refinement(CLI::App* command, BakeArguments& a) {
                    a.finer.refine = real_number(text);
                })
         .detail("ERROR: above 0; relative L2 error of interpolation of direct light; 0.02: 2 %\n"
-                "  light of the sky, not of lamps")
+                "  over the whole surface, not of each triangle; light of the sky, not of lamps")
         .detail("the written mesh contains the new vertices; coarser levels of detail are not split")
         .detail("stops earlier at the maximum number of vertices, and at very short edges; default: no split")
         .detail("fits light to the surface (--fit surface); not with --fit vertex and --texels\n"

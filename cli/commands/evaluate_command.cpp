@@ -184,7 +184,10 @@ void add_evaluate(CLI::App& app, Session& session) {
         check_light_options(*command, !given.lights.empty());
         run(given, session);
     });
-    command->add_option("baked", a.baked, "output of prt bake: reference for shipped; measured by --measure")
+    command
+        ->add_option("baked", a.baked,
+                     "reference for the second file, and model that --measure measures\n"
+                     "                              output of prt bake, or of prt make --keep-bake")
         ->required()
         ->check(named);
     command

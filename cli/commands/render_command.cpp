@@ -507,7 +507,7 @@ std::unique_ptr<Shown> show(const RenderArguments& a, const SceneFile& model, co
     picture.suns = light.split.suns;
     shown->emission = emission_strengths(model.scene, layout_of_any(model), lighting.lamps);
     picture.emission = shown->emission;
-    if (a.look.background && light.environment) {
+    if (a.look.background && light.environment && a.look.show == Show::lit) {
         shown->background = resampled_lat_long(*light.environment);
         picture.background.image = &shown->background;
     }
@@ -623,12 +623,12 @@ void add_render(CLI::App& app, Session& session) {
         run(given, session);
     });
     command
-        ->add_option("model", a.model,
-                     "model to draw: a scene, or output of prt bake, compress, make or lobes\n"
-                     "                              .gltf or .glb; skinned meshes have the pose of the file\n"
-                     "                              a scene without transfer is lit by the sky without "
-                     "shadows\n"
-                     "                              and has no lamps, except with --path-trace")
+        ->add_option(
+            "model", a.model,
+            "model to draw: a scene, or output of prt bake, compress, make or lobes\n"
+            "                              .gltf or .glb; skinned meshes have the pose of the file\n"
+            "                              a scene without transfer: sky without shadows, suns with\n"
+            "                              shadows, no lamps; with --path-trace: all light")
         ->required()
         ->check(named);
     add_light(command, a.environment);

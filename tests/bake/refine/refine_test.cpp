@@ -75,6 +75,21 @@ TEST(Refine, SplitsAlongTheShadow) {
     EXPECT_GT(near / 1, 3 * far / 7); // per metre across
 }
 
+TEST(Refine, DoesNotSplitKeptNodes) {
+    const Scene floor = floor_to_refine();
+    Scene other = floor;
+    for (glm::vec3& position : other.vertex_arrays[0].positions)
+        position.x += 20;
+    const Scene scene = test::join({floor, other});
+    RefineOptions how{.target = 0.03};
+    how.kept_nodes = {scene.primitives[1].node};
+    const RefineResult result = refine(scene, options_of_order(4), how);
+    EXPECT_EQ(result.statistics.end, RefineEnd::target); // errors of kept nodes do not count
+    EXPECT_GT(result.refinement.triangles[0].size(), floor.triangles());
+    EXPECT_EQ(result.refinement.triangles[1], other.primitives[0].triangles);
+    EXPECT_TRUE(result.refinement.midpoints[1].empty());
+}
+
 TEST(Refine, KeepsAndReportsTheLimit) {
     const Scene scene = floor_to_refine();
     for (const std::size_t most : {21u, 40u, 123u}) {
