@@ -3,6 +3,7 @@
 #include "bake/plan/plan.h"
 #include "bake/reference/back_reach.h"
 #include "bake/refine/sides.h"
+#include "prt/core/error.h"
 #include "runtime/core/support/parallel.h"
 
 #include <glm/geometric.hpp>
