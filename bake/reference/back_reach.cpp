@@ -38,6 +38,15 @@ BackReach::Path BackReach::path(std::uint32_t triangle, std::uint32_t seed, std:
     Path path;
     if (!(glm::dot(side.face, side.face) > 0))
         return path; // it has no area
+    const Surfaces& surfaces = scene_.surfaces();
+    // Light leaves a sheet from either side.
+    const auto pass_sheet = [&](std::uint32_t at) {
+        if (!surfaces.transmits(at) || samples.next().x < 0.5f)
+            return;
+        side = side.other();
+        path.at_home = false;
+    };
+    pass_sheet(triangle);
     float weight = 1;
     for (int bounce = 0; bounce <= kReachBounces; ++bounce) {
         if (sees_lamp(side, samples))
@@ -51,9 +60,10 @@ BackReach::Path BackReach::path(std::uint32_t triangle, std::uint32_t seed, std:
             return {weight, false};
         path.at_home =
             path.at_home && surface.back && (pieces.empty() || pieces[met->triangle] == pieces[triangle]);
-        if (surface.back && !scene_.surfaces().two_sided(met->triangle))
+        if (surface.back && !surfaces.two_sided(met->triangle))
             return path;
         side = surface.side;
+        pass_sheet(met->triangle);
         weight *= kReflected;
     }
     return path;

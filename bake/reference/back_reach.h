@@ -16,8 +16,9 @@ namespace prt {
 inline constexpr double kMinReach = 1e-3;
 
 /// Paths that search for light. The reach of a path starts at 1 and is halved at each surface that the path
-/// hits, until it ends in the sky above the horizon, or until a random point of a lamp is visible. It is 0 if
-/// the path finds no light in eight bounces. The reach is an order of magnitude only.
+/// hits, until it ends in the sky above the horizon, or until a random point of a lamp is visible. A thin
+/// sheet continues it on either side by chance. The reach is 0 if the path finds no light in eight bounces.
+/// The reach is an order of magnitude only.
 class BackReach {
 public:
     /// `lamps`: lamps that are lit. Keeps a reference to `scene`.

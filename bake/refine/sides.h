@@ -13,10 +13,10 @@ namespace prt {
 /// Returns for each triangle whether its back side needs separate vertices, because light of the sky or of a
 /// lamp reaches the back: [triangles of the scene], in the order of Scene::primitives. Empty if no triangle
 /// needs them. If light reaches the backs of more than half of a connected surface, all its triangles are
-/// marked. Only triangles of double-sided materials are marked, except blended surfaces, glass, thin sheets
-/// that transmit light, and solids with a medium inside. Light of the sky below the horizon does not count,
-/// because cameras rarely look from there. Light is followed over up to eight reflections, and each surface
-/// counts as reflecting half of it. `options` are those of the bake that follows. Pass the result to
+/// marked. Only triangles of double-sided materials are marked, except blended surfaces and solids with a
+/// medium inside. Light of the sky below the horizon does not count, because cameras rarely look from there.
+/// Light is followed over up to eight surfaces, and each counts as scattering half of it, a thin sheet to
+/// either side. `options` are those of the bake that follows. Pass the result to
 /// `with_separate_sides` (bake/gltf/separate_sides.h), which creates the vertices. Uses random paths
 /// with the seed of `options`; the result does not depend on the number of threads. Throws `Error` for media
 /// and lamp groups that `bake` does not accept; other options are not checked. Also throws the errors of

@@ -3,6 +3,7 @@
 #include "bake/plan/plan.h"
 #include "bake/reference/back_reach.h"
 #include "bake/refine/sides.h"
+#include "prt/core/error.h"
 #include "runtime/core/support/parallel.h"
 
 #include <glm/geometric.hpp>
@@ -28,8 +29,7 @@ constexpr double kMajority = 0.5;
 
 bool can_separate(const Surfaces& surfaces, std::uint32_t t) {
     const Material& material = surfaces.material(t);
-    return material.double_sided && material.alpha_mode != AlphaMode::blend && material.glass.factor <= 0 &&
-           !surfaces.transmits(t) && !surfaces.solid(t);
+    return material.double_sided && material.alpha_mode != AlphaMode::blend && !surfaces.solid(t);
 }
 
 /// Groups connected receivers: receivers connected by `triangles`, and corners of one vertex array at the

@@ -31,7 +31,7 @@ std::uint64_t position_hash(const glm::vec3& at) {
 }
 
 bool shows_one_side(const Material& material) {
-    return !material.double_sided && material.transmission.factor <= 0 && material.casts_shadow;
+    return !material.double_sided && material.casts_shadow;
 }
 
 std::vector<SingleSidedFace> single_sided_faces(const Scene& scene) {
@@ -85,12 +85,18 @@ OppositeTriangles::OppositeTriangles(const Scene& scene) {
         const std::span<const SingleSidedFace> these(begin, rotated), those(rotated, end);
         if (!those.empty())
             of_.resize(scene.triangles());
+        for (std::size_t i = 0; i < those.size(); ++i)
+            if (const SingleSidedFace& kept = these[std::min(i, these.size() - 1)];
+                kept.primitive == those[i].primitive)
+                of_[those[i].triangle].traced = kept.triangle;
         const auto set = [&](std::span<const SingleSidedFace> from, std::span<const SingleSidedFace> to) {
             for (std::size_t i = 0; i < from.size() && !to.empty(); ++i) {
                 const SingleSidedFace& other =
                     to[std::min(i, to.size() - 1)]; // the last triangle serves all that are left
-                if (const auto of_from = opposite_corners(at, from[i].corners, other.corners))
-                    of_[from[i].triangle] = {other.triangle, *of_from};
+                if (const auto of_from = opposite_corners(at, from[i].corners, other.corners)) {
+                    of_[from[i].triangle].triangle = other.triangle;
+                    of_[from[i].triangle].corners = *of_from;
+                }
             }
         };
         set(these, those);

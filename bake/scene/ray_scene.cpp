@@ -127,10 +127,11 @@ RayScene::RayScene(const Scene& scene, int threads)
         const VertexArray& array = scene.vertex_arrays[primitive.vertices];
         for (std::size_t t = 0; t < primitive.triangles.size(); ++t) {
             const glm::uvec3& triangle = primitive.triangles[t];
+            const auto id = static_cast<unsigned>(triangles_.size());
+            const bool hit = scene.materials[primitive.material].casts_shadow && opposites_->traced(id) == id;
             // Degenerate triangles cannot be hit; the indices of the other triangles do not change.
             *indices++ =
-                (scene.materials[primitive.material].casts_shadow ? triangle : glm::uvec3(triangle.x)) +
-                static_cast<unsigned>(array.first_receiver);
+                (hit ? triangle : glm::uvec3(triangle.x)) + static_cast<unsigned>(array.first_receiver);
             triangles_.push_back({static_cast<std::uint32_t>(p), static_cast<std::uint32_t>(t)});
         }
     }
@@ -186,7 +187,7 @@ void RayScene::triangles_near(const glm::vec3& position, float distance, std::ve
 }
 
 float RayScene::triangle_offset(unsigned id, float distance) const {
-    const glm::uvec3& t = corners_[id];
+    const glm::uvec3& t = corners_[opposites_->traced(id)];
     const glm::vec3 &a = positions_[t.x], &b = positions_[t.y], &c = positions_[t.z];
     const float length =
         std::max({largest_coordinate(b - a), largest_coordinate(c - b), largest_coordinate(a - c)});

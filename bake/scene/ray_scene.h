@@ -76,11 +76,15 @@ public:
     bool occluded(const Ray& ray) const;
 
     /// Returns the pairs of triangles of one vertex array that have the same corner positions in opposite
-    /// order. The materials of both are single-sided, transmit no diffuse light and cast shadows. A direct
-    /// query of `handle()` may report a hit on the back of one triangle of a pair. The caller must then
-    /// replace the hit by a hit on the front of the other triangle (OppositeTriangles::shown, an internal
-    /// function). The function `nearest(ray)` does so itself.
+    /// order. The materials of both are single-sided and cast shadows. A direct query of `handle()` may
+    /// report a hit on the back of one triangle of a pair. The caller must then replace the hit by a hit on
+    /// the front of the other triangle (OppositeTriangles::shown, an internal function). The function
+    /// `nearest(ray)` does so itself.
     const OppositeTriangles& opposites() const { return *opposites_; }
+
+    /// Returns whether rays can hit triangle `id`. They pass triangles of materials with `casts_shadow`
+    /// false, and triangles that an opposite one stands for (OppositeTriangles::traced).
+    bool is_traced(unsigned id) const { return corners_[id].x != corners_[id].y; }
 
     /// Returns the RTCScene of Embree, for queries of several rays at once. This object owns it.
     RTCSceneTy* handle() const { return scene_.get(); }

@@ -164,7 +164,7 @@ std::vector<std::uint32_t> shadowing_triangles(const TraceScene& scene) {
     std::vector<std::uint32_t> triangles;
     for (const bool opaque : {true, false})
         for (std::uint32_t t = 0; t < scene.surfaces().triangles(); ++t)
-            if (scene.surfaces().opaque(t) == opaque && scene.surfaces().material(t).casts_shadow)
+            if (scene.surfaces().opaque(t) == opaque && scene.rays().is_traced(t))
                 triangles.push_back(t);
     return triangles;
 }

@@ -22,7 +22,7 @@ struct AlphaTables {
 /// Builds the tables of `triangles`; the index of all other triangles is 0.
 AlphaTables make_alpha_tables(const TraceScene& scene, std::span<const std::uint32_t> triangles);
 
-/// Returns the triangles that cast shadows, opaque ones first.
+/// Returns the triangles that rays can hit, opaque ones first.
 std::vector<std::uint32_t> shadowing_triangles(const TraceScene& scene);
 
 /// Returns the corners of `triangles`, [triangles][3]; the w components hold the index of the triangle and

@@ -47,7 +47,9 @@ CopiedTriangles::CopiedTriangles(const TraceScene& traced) {
         const auto first_slot = static_cast<std::uint32_t>(slots.size());
         const bool opaque = count == 0 || surfaces.opaque(first);
         for (std::uint32_t t = first; t < first + count; ++t)
-            add(traced, t);
+            if (traced.rays().is_traced(t))
+                add(traced, t);
+        const auto added = static_cast<std::uint32_t>(slots.size()) - first_slot;
         for (const CopiedPrimitive& instance : mesh) {
             const std::uint32_t triangle = first_triangle[instance.primitive];
             copies.push_back({meshes.size(), instance.transform});
@@ -55,7 +57,7 @@ CopiedTriangles::CopiedTriangles(const TraceScene& traced) {
             if (triangle != first)
                 shares.push_back({triangle, first, count});
         }
-        meshes.push_back({first_slot, opaque ? count : 0, opaque ? 0 : count});
+        meshes.push_back({first_slot, opaque ? added : 0, opaque ? 0 : added});
     }
 }
 

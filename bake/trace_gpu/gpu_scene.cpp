@@ -65,9 +65,9 @@ void GpuScene::build_nodes(const VulkanDevice& device, GpuQueue& queue, const Tr
 void GpuScene::upload_tables(const VulkanDevice& device, GpuQueue& queue, const TraceScene& scene,
                              std::span<const std::uint32_t> slots) {
     std::vector<std::uint32_t> asked(slots.begin(), slots.end());
-    // Lamps that cast no shadow may also be cut out.
+    // Lamps that rays do not hit may also be cut out.
     for (std::uint32_t t = 0; t < scene.surfaces().triangles(); ++t)
-        if (!scene.surfaces().opaque(t) && !scene.surfaces().material(t).casts_shadow)
+        if (!scene.surfaces().opaque(t) && !scene.rays().is_traced(t))
             asked.push_back(t);
     alpha_ = make_alpha_tables(scene, asked);
     tables_.corners = to_device(device, queue, tagged_corners(scene, slots, alpha_), "the triangles");

@@ -50,7 +50,7 @@ TouchingTriangles touching_triangles(const TraceScene& scene, const Receivers& r
             rays.triangles_near(position, near, ids);
             for (const unsigned id : ids) {
                 const CornersOfTriangle corners = corners_of(surfaces.scene(), rays.triangle(id));
-                if (surfaces.opaque(id) && surfaces.material(id).casts_shadow &&
+                if (surfaces.opaque(id) && rays.is_traced(id) &&
                     touches(corners, glm::dvec3(position), normal, static_cast<double>(near)))
                     for (const glm::dvec3& corner : corners)
                         found[i].emplace_back(glm::vec3(corner - start), 0);

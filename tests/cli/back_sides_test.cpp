@@ -64,6 +64,32 @@ TEST_F(BackSides, GetVerticesIfLightReachesThem) {
     EXPECT_NE(validator_errors(folder / "b.glb"), 1);
 }
 
+/// A roof of leaves: light from above passes to its underside, in the color that the leaves transmit.
+TEST_F(BackSides, OfLeavesShowTheLightThatPasses) {
+    GlbFile file = roof_file();
+    file.json["extensionsUsed"] = {"KHR_materials_diffuse_transmission"};
+    file.json["materials"][0]["extensions"]["KHR_materials_diffuse_transmission"] = {
+        {"diffuseTransmissionFactor", 0.25}, {"diffuseTransmissionColorFactor", {0, 1, 0}}};
+    file.write(folder / "roof.glb");
+    const Outcome baked = bake("roof.glb", "b.glb");
+    ASSERT_EQ(baked.status, 0) << baked.err;
+    EXPECT_NE(baked.err.find("the back sides of "), std::string::npos) << baked.err;
+    const GltfDocument document = load_gltf(folder / "b.glb");
+    const Scene scene = extract_scene(document);
+    EXPECT_EQ(scene.triangles(), 2 * extract_scene(load_gltf(folder / "roof.glb")).triangles());
+    const auto transfer = read_transfer(document, scene);
+    ASSERT_TRUE(transfer);
+    ASSERT_EQ(transfer->transfer.layout.channels(), 3);
+    const VertexArray& vertices = scene.vertex_arrays[0];
+    for (std::size_t v = 0; v < vertices.size(); ++v)
+        if (vertices.positions[v].y > 0.1f) {
+            // Direct light from above in red and green: the basis function of y is negative there.
+            const float red = -transfer->transfer.vector(v)[1], green = -transfer->transfer.vector(v)[5];
+            EXPECT_EQ(red > 0, vertices.normals[v].y > 0) << v;
+            EXPECT_EQ(red > green, vertices.normals[v].y > 0) << v;
+        }
+}
+
 TEST_F(BackSides, ShareTheLightOfTheFront) {
     roof_file().write(folder / "roof.glb");
     const Outcome baked = bake("roof.glb", "b.glb", {"--back-sides", "shared"});

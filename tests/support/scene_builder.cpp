@@ -4,6 +4,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -137,6 +138,31 @@ Scene painted(Scene scene, const glm::vec3& color, bool double_sided) {
         material.base_color = glm::vec4(color, 1);
         material.double_sided = double_sided;
     }
+    return scene;
+}
+
+Scene with_opposites(Scene scene) {
+    std::vector<unsigned> first_back;
+    for (VertexArray& vertices : scene.vertex_arrays) {
+        first_back.push_back(static_cast<unsigned>(vertices.size()));
+        vertices.first_receiver *= 2;
+        const auto repeat = [](auto& values) {
+            const auto fronts = values;
+            values.insert(values.end(), fronts.begin(), fronts.end());
+        };
+        repeat(vertices.positions);
+        repeat(vertices.colors);
+        std::ranges::for_each(vertices.texcoords, repeat);
+        for (std::size_t v = 0; v < first_back.back(); ++v)
+            vertices.normals.push_back(-vertices.normals[v]);
+    }
+    for (Primitive& primitive : scene.primitives)
+        for (std::size_t t = 0, count = primitive.triangles.size(); t < count; ++t) {
+            const glm::uvec3 corners = primitive.triangles[t] + first_back[primitive.vertices];
+            primitive.triangles.emplace_back(corners.x, corners.z, corners.y);
+        }
+    for (Material& material : scene.materials)
+        material.double_sided = false;
     return scene;
 }
 

@@ -37,6 +37,9 @@ Scene join(const std::vector<Scene>& parts);
 /// `scene` with this base colour on both sides or one.
 Scene painted(Scene scene, const glm::vec3& color, bool double_sided = false);
 
+/// `scene` with single-sided materials, and separate vertices and triangles for the backs.
+Scene with_opposites(Scene scene);
+
 /// A point lamp named "lamp" of intensity 1.
 PunctualLight lamp_at(const glm::vec3& position);
 

@@ -12,6 +12,8 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
+#include <tuple>
 
 namespace prt {
 namespace {
@@ -62,6 +64,25 @@ glm::vec3 center_of(const Primitive& primitive, const VertexArray& vertices) {
     return sum / static_cast<float>(std::max<std::size_t>(1, primitive.triangles.size()));
 }
 
+/// Returns whether each triangle is there twice, once for each side.
+bool has_both_sides(const Primitive& primitive, const VertexArray& vertices) {
+    std::set<std::array<std::tuple<float, float, float>, 3>> triangles;
+    const auto corners_of = [&](const glm::uvec3& t) {
+        std::array<std::tuple<float, float, float>, 3> corners;
+        for (int i = 0; i < 3; ++i) {
+            const glm::vec3& at = vertices.positions[t[i]];
+            corners[static_cast<std::size_t>(i)] = {at.x, at.y, at.z};
+        }
+        std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
+        return corners;
+    };
+    for (const glm::uvec3& t : primitive.triangles)
+        triangles.insert(corners_of(t));
+    return std::ranges::all_of(primitive.triangles, [&](const glm::uvec3& t) {
+        return triangles.contains(corners_of({t.x, t.z, t.y}));
+    });
+}
+
 /// Binds `texture` with the wrap modes of `use`, and sets its transform. A sampler without a texture is not
 /// sampled.
 void bind(GLuint unit, const GlObject* texture, const TextureUse& use, int transform) {
@@ -98,7 +119,9 @@ GlScene::GlScene(const Scene& scene, std::span<const Texture> textures) : scene_
     }
     for (const Primitive& primitive : scene.primitives) {
         indices_.push_back(make_buffer(std::span<const glm::uvec3>(primitive.triangles)));
-        centers_.push_back(center_of(primitive, scene.vertex_arrays[primitive.vertices]));
+        const VertexArray& vertices = scene.vertex_arrays[primitive.vertices];
+        centers_.push_back(center_of(primitive, vertices));
+        twice_.push_back(blocking(primitive) == Blocking::term && has_both_sides(primitive, vertices));
         bytes_ += primitive.triangles.size() * sizeof(glm::uvec3);
     }
 }
@@ -242,7 +265,8 @@ void GlScene::draw_caster(const GlObject& program, const GlVertexArrays& arrays,
     const Glass& glass = scene_.materials[primitive.material].glass;
     const Vertices& vertices = vertices_[primitive.vertices];
     prepare(program, arrays, index);
-    glDisable(GL_CULL_FACE);
+    if (!twice_[index])
+        glDisable(GL_CULL_FACE);
     const GlObject* texture = glass.factor > 0 ? texture_of(glass.texture, vertices) : nullptr;
     glUniform1f(uniform(program, "glass"), glass_transmittance(scene_.materials[primitive.material]));
     glUniform1i(uniform(program, "has_glass_texture"), texture != nullptr);
@@ -256,6 +280,7 @@ void GlScene::draw_caster(const GlObject& program, const GlVertexArrays& arrays,
     }
     glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * primitive.triangles.size()), GL_UNSIGNED_INT,
                    nullptr);
+    glDisable(GL_CULL_FACE);
 }
 
 void GlScene::draw(const GlObject& program, const GlVertexArrays& arrays, std::size_t primitive) const {

@@ -82,10 +82,11 @@ public:
     /// Returns whether `primitive`, an element of Scene::primitives, blocks no light of a sun, all light or a
     /// part of it.
     Blocking blocking(const Primitive& primitive) const;
-    /// Draws both sides of a primitive into the bound framebuffer, a shadow map. `program` must be in use and
-    /// built from sun_caster.vert and sun_caster.frag; SunShadows::set_map must have set its uniforms.
-    /// `arrays`: result of make_vertex_arrays. `primitive`: index into Scene::primitives. Leaves face culling
-    /// disabled.
+    /// Draws both sides of a primitive into the bound framebuffer, a shadow map; of a surface that the
+    /// primitive contains once for each side, and that blocks a part of the light, only one. `program` must
+    /// be in use and built from sun_caster.vert and sun_caster.frag; SunShadows::set_map must have set its
+    /// uniforms. `arrays`: result of make_vertex_arrays. `primitive`: index into Scene::primitives. Leaves
+    /// face culling disabled.
     void draw_caster(const GlObject& program, const GlVertexArrays& arrays, std::size_t primitive) const;
     /// Returns the blended primitives as indices into Scene::primitives, from far to near. The distance of a
     /// primitive is that from `position` (metres, relative to Scene::origin) to the mean of the
@@ -112,6 +113,7 @@ private:
     std::vector<Vertices> vertices_;  ///< [vertex arrays]
     std::vector<GlObject> indices_;   ///< [primitives]
     std::vector<glm::vec3> centers_;  ///< [primitives] mean of one corner of each triangle
+    std::vector<bool> twice_;         ///< [primitives] blocks a part of light with two opposite triangles
     std::vector<GlObject> textures_;  ///< [images]
     std::vector<bool> encoded_;       ///< [images] whether the image is sRGB-encoded
     std::vector<glm::vec3> emission_; ///< [materials]; empty: no emission

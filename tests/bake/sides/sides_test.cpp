@@ -4,19 +4,21 @@
 
 #include "bake/scene/opposite_triangles.h"
 #include "prt/bake/bake.h"
+#include "prt/core/sh.h"
 #include "support/scene_builder.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
 namespace prt {
 namespace {
 
-using test::SceneBuilder;
+using test::SceneBuilder, test::with_opposites;
 
 struct Box {
     glm::vec3 low, high;
@@ -163,6 +165,90 @@ TEST(DuplicateWalls, AreDarkInAClosedRoom) {
     }
 }
 
+constexpr float kPassed = 0.4f, kBase = 0.5f;
+const glm::vec3 kThrough(0.25f, 0.5f, 1);
+
+Scene sheet(const glm::vec3& centre) {
+    Scene leaf = test::painted(SceneBuilder().floor(centre, 1).build(), glm::vec3(kBase), true);
+    leaf.materials[0].transmission.factor = kPassed;
+    leaf.materials[0].transmission.color = kThrough;
+    return leaf;
+}
+
+/// Under a sky that is bright above only, over black ground, a sheet reflects on its upper side and passes
+/// light to its lower one.
+TEST(SheetsWithBothSides, ShowReflectedAndPassedLight) {
+    const Scene scene =
+        test::join({with_opposites(sheet({0, 1, 0})),
+                    test::painted(SceneBuilder().floor({0, 0, 0}, 100).build(), glm::vec3(0))});
+    BakeOptions options;
+    options.order = 3;
+    options.rays = 256;
+    options.lamps.mode = LampMode::none;
+    options.tracer.backend = Backend::cpu;
+    const BakeResult result = bake(scene, options);
+    const TransferLayout& layout = result.baked.transfer.layout;
+    ASSERT_EQ(layout.channels(), 3);
+    std::array<double, 9> above{};
+    clamped_cosine_lobe(3, {0, 1, 0}, above);
+    for (std::size_t p = 0; p < scene.vertex_arrays[0].size(); ++p) {
+        const bool up = scene.vertex_arrays[0].normals[p].y > 0;
+        for (std::size_t c = 0; c < 3; ++c)
+            for (std::size_t i = 0; i < 9; ++i) {
+                const double share = up ? 1 - kPassed : kPassed * kThrough[static_cast<int>(c)] / kBase;
+                EXPECT_NEAR(result.baked.transfer.vector(p)[c * 9 + i], share * above[i], 0.01) << p;
+            }
+    }
+}
+
+/// The vertices of the two sides have the light of sheets that face up and down.
+TEST(SheetsWithBothSides, HaveTheLightOfMirroredSheets) {
+    const Scene floor = test::painted(SceneBuilder().floor({0, 0, 0}, 1.5f).build(), {0.8f, 0.4f, 0.2f});
+    BakeOptions options;
+    options.order = 2;
+    options.rays = 4096;
+    options.bounces = 2;
+    options.tracer.backend = Backend::cpu;
+    Scene up = sheet({0, 0.5f, 0}), down = up;
+    for (glm::uvec3& t : down.primitives[0].triangles)
+        std::swap(t.y, t.z);
+    for (glm::vec3& normal : down.vertex_arrays[0].normals)
+        normal = -normal;
+    const Transfer separate = bake(test::join({with_opposites(up), floor}), options).baked.transfer;
+    std::size_t first = 0;
+    for (const Scene& one : {up, down}) {
+        const Transfer alone = bake(test::join({one, floor}), options).baked.transfer;
+        ASSERT_EQ(alone.dimension(), separate.dimension());
+        for (std::size_t p = 0; p < one.receivers(); ++p)
+            for (std::size_t i = 0; i < alone.dimension(); ++i)
+                EXPECT_NEAR(separate.vector(first + p)[i], alone.vector(p)[i], 0.02) << p << " " << i;
+        first += one.receivers();
+    }
+}
+
+/// A pane of two opposite triangles stops its share of the light once.
+TEST(GlassWithBothSides, PassesLightOnce) {
+    Scene pane = SceneBuilder()
+                     .floor({0, 0, 0}, 20, 8)
+                     .transform([](const glm::vec3& p) {
+                         return glm::vec3(p.x, 0.3f + 0.013f * p.x + 0.0071f * p.z, 0.97f * p.z);
+                     })
+                     .build();
+    pane.materials[0].double_sided = true;
+    pane.materials[0].glass.factor = 0.5f;
+    const Scene floor = SceneBuilder().floor({0, 0, 0}, 0.3f).build();
+    BakeOptions options;
+    options.order = 1;
+    options.rays = 256;
+    options.tracer.backend = Backend::cpu;
+    const auto under = [&](const Scene& cover) {
+        const Scene scene = test::join({floor, cover});
+        return shown(bake(scene, options).baked.transfer, 0);
+    };
+    EXPECT_NEAR(under(pane), 0.5, 0.02);
+    EXPECT_NEAR(under(with_opposites(pane)), 0.5, 0.02);
+}
+
 std::size_t separated(const Scene& scene, const BakeOptions& options = {}) {
     const std::vector<bool> triangles = sides_to_separate(scene, options);
     return static_cast<std::size_t>(std::ranges::count(triangles, true));
@@ -266,18 +352,27 @@ TEST(SidesToSeparate, IncludeABoxOnAPlain) {
     EXPECT_LT(std::ranges::count(triangles, true), 100);
 }
 
-TEST(SidesToSeparate, ExcludeTransparentSurfaces) {
+TEST(SidesToSeparate, ExcludeBlendedSurfaces) {
     const Scene open = double_sided(scene_of(kOpen));
-    for (const auto& change :
-         {+[](Material& m) { m.alpha_mode = AlphaMode::blend; }, +[](Material& m) { m.glass.factor = 0.5f; },
-          +[](Material& m) { m.transmission.factor = 0.5f; }}) {
+    const auto changed = [&](void (*change)(Material&)) {
         Scene scene = open;
         change(scene.materials[0]);
-        EXPECT_EQ(separated(scene), 0u);
+        return separated(scene);
+    };
+    EXPECT_EQ(changed([](Material& m) { m.alpha_mode = AlphaMode::blend; }), 0u);
+    EXPECT_EQ(changed([](Material& m) { m.alpha_mode = AlphaMode::mask; }), 10u);
+    EXPECT_EQ(changed([](Material& m) { m.glass.factor = 0.5f; }), 10u);
+    EXPECT_EQ(changed([](Material& m) { m.transmission.factor = 0.5f; }), 10u);
+}
+
+/// Light from above passes sheets: the lower side of one, and the inside of a closed box of them.
+TEST(SidesToSeparate, AreLitThroughSheets) {
+    for (const Scene& scene : {SceneBuilder().floor({0, 0, 0}, 1).build(), scene_of(kClosed)}) {
+        Scene leaf = double_sided(scene);
+        EXPECT_EQ(separated(leaf), 0u);
+        leaf.materials[0].transmission.factor = 0.5f;
+        EXPECT_EQ(separated(leaf), leaf.triangles());
     }
-    Scene cut_out = open;
-    cut_out.materials[0].alpha_mode = AlphaMode::mask;
-    EXPECT_EQ(separated(cut_out), 10u);
 }
 
 } // namespace

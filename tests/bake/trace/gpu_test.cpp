@@ -171,6 +171,8 @@ TEST(GpuTrace, PassesGlassLikeTheCpu) {
         Pair clay(under_a_ceiling(mode), glass_textures());
         EXPECT_GT(pair.distance(cpu, clay.on_cpu(options)), 0.02);
     }
+    Pair both(with_opposites(under_glass(AlphaMode::opaque)), glass_textures());
+    EXPECT_LT(both.difference({2, 64, 1, 0}), kGrazing);
 }
 
 TEST(GpuTrace, StoresCopiesOfAMeshOnce) {

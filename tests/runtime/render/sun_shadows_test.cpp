@@ -279,6 +279,7 @@ TEST_F(BelowTheZenith, IsDimmedByAllBlendedLayersAndGlassTogether) {
     glass.materials[0].glass.factor = 0.8f;
     glass.materials[0].base_color = {0.5f, 0.5f, 0.5f, 1};
     EXPECT_NEAR(through(glass), 0.4, 1e-3);
+    EXPECT_NEAR(through(test::with_opposites(glass)), 0.4, 1e-3);
 }
 
 TEST_F(BelowTheZenith, IsNotDimmedByItselfOrSurfacesBelow) {
