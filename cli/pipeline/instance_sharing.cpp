@@ -128,7 +128,8 @@ SharedMeshes meshes_to_share(const InstanceArguments& arguments, const GltfDocum
     const bool must = arguments.mode == InstanceMode::shared;
     if (asked.other) {
         if (must)
-            throw Error("--instances shared is for vertices as they are: leave out --texels and --refine");
+            throw Error("--instances shared is for vertices as they are: leave out --texels, --refine and "
+                        "--high-poly");
         return {};
     }
     FoundMeshes found = find_shared_meshes(document, scene, asked.options, asked.levels);

@@ -30,7 +30,7 @@ struct InstanceArguments {
 
 struct AskedFor {
     const BakeOptions& options;
-    bool other; ///< texels or finer meshes, which do not support shared transfer
+    bool other; ///< texels, finer meshes or a high-poly model, which do not support shared transfer
     LevelMode levels = LevelMode::ignore;
 };
 

@@ -652,7 +652,8 @@ TEST_F(SharedInstances, UnsupportedMeshesAreRejected) {
     EXPECT_NE(one.err.find("no transfer can be shared"), std::string::npos) << one.err;
     EXPECT_EQ(bake("boxes.glb", "auto.glb", "auto").status, 0);
     boxes({0, 0, 0, 3, 0, 0}).write(folder / "two.glb");
-    for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{{"--refine", "0.1"}})
+    for (const std::vector<std::string>& options :
+         std::vector<std::vector<std::string>>{{"--refine", "0.1"}, {"--high-poly", at("two.glb")}})
         EXPECT_EQ(bake("two.glb", "shared.glb", "shared", options).status, 1) << options[0];
     EXPECT_EQ(prt({"bake", at("two.glb"), "-o", at("shared.glb"), "--instances", "shared", "--texels", "4/m"})
                   .status,
