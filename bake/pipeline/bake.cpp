@@ -2,6 +2,7 @@
 
 #include "prt/bake/bake.h"
 
+#include "bake/pipeline/bounce_sources.h"
 #include "bake/pipeline/direct_transfer.h"
 #include "bake/pipeline/error_check.h"
 #include "bake/pipeline/outgoing_transfer.h"
@@ -54,8 +55,9 @@ struct OutgoingTransfer {
 };
 
 /// Propagates measured light. `points`: gathers at the points where errors are measured; may be null.
-OutgoingTransfer outgoing_transfer(const BakePlan& plan, Measured& measured,
-                                   const TransportOperators& operators, const GatherOperator* points,
+/// `sources`: light of the detailed model of the plan, if it has one.
+OutgoingTransfer outgoing_transfer(const BakePlan& plan, Measured& measured, TransportOperators operators,
+                                   const GatherOperator* points, const BounceSources& sources,
                                    const Progress& progress) {
     const std::vector<bool> left_out = not_told_by_rays(plan, measured.sealed);
     std::optional<NoiseFilter> filter;
@@ -68,10 +70,14 @@ OutgoingTransfer outgoing_transfer(const BakePlan& plan, Measured& measured,
     const auto at_points = [](Propagated& light) {
         return light.optional_work.empty() ? std::vector<float>() : std::move(light.optional_work.front());
     };
+    operators.sources = plan.detail ? &sources.sky : nullptr;
     exit.all = propagate_all(plan, measured, operators, optional_work, progress);
+    if (plan.detail && operators.gather)
+        exit.all.bounces = sources.bounces;
     exit.at_points.sky = at_points(exit.all);
     if (plan.lamps.empty())
         return exit;
+    operators.sources = plan.detail ? &sources.lamps : nullptr;
     Propagated lit = propagate_lamps(plan, measured, operators, optional_work, {{}, progress.stop});
     exit.all.transfer = with_lamps(exit.all.transfer, lit.transfer, plan.lamps);
     exit.all.bounces = std::max(exit.all.bounces, lit.bounces);
@@ -80,40 +86,56 @@ OutgoingTransfer outgoing_transfer(const BakePlan& plan, Measured& measured,
     return exit;
 }
 
+/// Checks the detailed model, and computes the light that leaves it before the last bounce.
+BounceSources detailed_sources(const DetailedPlan& detail, Tracer& tracer, BakePlan& plan,
+                               const Progress& progress) {
+    if (std::optional<std::string> notice = detail.surface.check())
+        plan.notices.push_back(std::move(*notice));
+    check_memory(detail.plan);
+    return bounce_sources(detail.plan, tracer, progress);
+}
+
 } // namespace
 
 BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& progress,
-                MeasureErrors errors) {
+                MeasureErrors errors, const FinerModel& finer) {
     check_options(options);
-    const Media media = choose_media(scene, options);
-    const TraceScene traced = trace_scene(scene, media, options);
+    check_finer(finer);
+    const Media media = choose_media(scene, options, finer.scene);
+    const TraceScene own = trace_scene(scene, media, options);
+    std::optional<DetailedPlan> detail;
+    if (finer.scene)
+        detail.emplace(scene, finer, options);
     BakeStatistics::Seconds seconds;
     const Stopwatch all;
-    BakePlan plan = plan_bake(traced, media, options);
+    BakePlan plan = plan_bake(own, media, options, detail ? &*detail : nullptr);
     plan.measures_errors = errors == MeasureErrors::yes;
     check_memory(plan);
-    const std::unique_ptr<Tracer> tracer = make_tracer(traced, options.tracer);
+    const std::unique_ptr<Tracer> tracer = make_tracer(plan.traced().scene, options.tracer);
     seconds.build = all.seconds();
 
-    const double traced_sky = plan.bounces != 0 ? 0.85 : 0.95;
+    const double traced_sky = plan.bounces != 0 ? 0.85 : 0.95, lit = detail && plan.bounces != 0 ? 0.4 : 0;
+    const BounceSources sources =
+        detail ? detailed_sources(*detail, *tracer, plan, progress.range(0, lit)) : BounceSources();
     BakeStatistics asked;
-    Measured measured = measure(plan, *tracer, LastOfLamps::connected, asked, progress.range(0, traced_sky));
+    Measured measured = measure(plan, *tracer, LastOfLamps::connected, asked, progress.range(lit, traced_sky),
+                                sources.known_connections());
     DirectLight& direct = measured.direct;
     const SealedIn& sealed = measured.sealed;
-    direct.rays += measured.lamps.light.rays + asked.rays;
+    direct.rays += measured.lamps.light.rays + asked.rays + sources.rays;
     std::optional<ErrorCheck> check = check_errors(plan, *tracer, measured, progress.stop);
     seconds.tracing = tracer->seconds();
 
     const Stopwatch transport;
     const std::unique_ptr<GatherProduct> product =
-        direct.gather ? tracer->gather_product(*direct.gather) : nullptr;
+        direct.gather && !detail ? tracer->gather_product(*direct.gather) : nullptr;
     const TransportOperators operators{.refill = sealed.refill,
                                        .diffusion = plan.diffusion,
                                        .gather = direct.gather ? &*direct.gather : nullptr,
                                        .product = product.get(),
                                        .fit = measured.fit ? &*measured.fit : nullptr};
     OutgoingTransfer exit = outgoing_transfer(plan, measured, operators, check ? check->gather() : nullptr,
-                                              progress.range(traced_sky, 1));
+                                              sources, progress.range(traced_sky, 1));
     if (exit.noise.sky > 0)
         direct.sampling_error = exit.noise.sky;
     if (measured.shared)
@@ -121,10 +143,8 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
     fill_without_area(plan.receivers(), plan.transport->fronts, exit.all.transfer);
     seconds.transport = transport.seconds();
 
-    std::optional<BakeErrors> found;
-    if (check)
-        found = check->compare(exit.all.transfer, exit.at_points);
-
+    std::optional<BakeErrors> found =
+        check ? std::optional(check->compare(exit.all.transfer, exit.at_points)) : std::nullopt;
     BakeResult result = record(plan, *tracer, direct, sealed, std::move(exit.all));
     result.statistics.fit = asked.fit;
     result.noise = std::move(exit.noise);

@@ -17,6 +17,8 @@ struct BounceSources {
     std::optional<LampConnections> connections; ///< connections for the last bounce of lamps, if there is one
     int bounces = 0;                            ///< number of computed bounces, including the last one
     std::size_t rays = 0;                       ///< all traced rays
+
+    const LampConnections* known_connections() const { return connections ? &*connections : nullptr; }
 };
 
 /// Measures light at the receivers of `plan` and propagates it up to the last bounce.

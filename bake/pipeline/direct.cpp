@@ -19,7 +19,7 @@ std::vector<std::uint32_t> trace_adaptively(const BakePlan& plan, Tracer& tracer
                                             std::span<const float> left, DirectLight& direct,
                                             const Progress& progress) {
     AdaptiveResult adaptive =
-        adaptive_transfer(tracer, plan.receivers(),
+        adaptive_transfer(tracer, plan.transport->measured(),
                           MeshNeighbours(plan.scene.surfaces(), plan.receivers(), plan.transport->fronts),
                           left, options, *plan.options.target_error, progress);
     direct.transfer = std::move(adaptive.transfer);
@@ -37,7 +37,7 @@ std::vector<std::uint32_t> trace_adaptively(const BakePlan& plan, Tracer& tracer
 std::vector<std::uint32_t> draw_to_target(const BakePlan& plan, Tracer& tracer, TraceOptions options,
                                           std::span<const std::uint32_t> indices, DirectLight& direct,
                                           const Progress& progress) {
-    const Receivers& receivers = plan.receivers();
+    const Receivers& receivers = plan.transport->measured();
     direct.transfer = zero_transfer(options.order, 1, receivers.size());
     const EqualRays equal = equal_rays(*plan.options.target_error, [&](int rays) {
         options.rays = rays;
@@ -92,7 +92,7 @@ double noise_left(const BakePlan& plan, std::span<const float> left) {
 
 DirectLight trace_direct(const BakePlan& plan, Tracer& tracer, const LampConnections* lamps,
                          std::span<const float> left, const Progress& progress) {
-    const Receivers& receivers = plan.receivers();
+    const Receivers& receivers = plan.transport->measured();
     const std::vector<std::uint32_t> indices = receivers_on_surfaces(receivers);
     const TraceOptions options{
         .order = plan.options.order, .rays = plan.options.rays, .seed = plan.options.seed};

@@ -20,8 +20,8 @@ SealedIn find_sealed_in(const BakePlan& plan, Tracer& tracer, const Transfer& di
     for (const std::uint32_t p : receivers_on_surfaces(plan.receivers()))
         if (static_cast<double>(direct.vector(p)[0]) <= max_dark(tracer))
             dark.push_back(p);
-    const Sealed sealed =
-        find_sealed(tracer, plan.scene, plan.receivers(), std::move(dark), plan.options.seed, stop);
+    const Sealed sealed = find_sealed(tracer, plan.traced().scene, plan.transport->measured(),
+                                      std::move(dark), plan.options.seed, stop);
     SealedIn found;
     found.rays = sealed.rays;
     for (std::uint32_t p = 0; p < plan.transport->fronts; ++p)
@@ -53,10 +53,10 @@ FitChoice fit_choice(const BakePlan& plan, Tracer& tracer, BakeStatistics& stati
 } // namespace
 
 Measured measure(const BakePlan& plan, Tracer& tracer, LastOfLamps last, BakeStatistics& statistics,
-                 const Progress& progress) {
+                 const Progress& progress, const LampConnections* known) {
     const FitChoice choice = fit_choice(plan, tracer, statistics, progress.range(0, 0.03));
     if (choice.better) {
-        FittedLight fitted = trace_fitted(plan, tracer, last, choice.samples, progress.range(0.03, 1));
+        FittedLight fitted = trace_fitted(plan, tracer, last, choice.samples, progress.range(0.03, 1), known);
         return {.direct = std::move(fitted.direct),
                 .lamps = std::move(fitted.lamps),
                 .sealed = std::move(fitted.sealed),
@@ -64,12 +64,12 @@ Measured measure(const BakePlan& plan, Tracer& tracer, LastOfLamps last, BakeSta
                 .sky = std::move(fitted.sky)};
     }
     const double lit = plan.lamps.empty() ? 0.03 : 0.25;
-    MeasuredLamps lamps{light_of_lamps(plan, tracer, plan.receivers(), {.seed = plan.options.seed},
+    MeasuredLamps lamps{light_of_lamps(plan, tracer, plan.transport->measured(), {.seed = plan.options.seed},
                                        progress.range(0.03, lit)),
                         {}};
     const std::optional<LampConnections> connections = connections_to(plan, last, lamps.light.transfer);
     SharedPositions shared(plan.scene, *plan.transport);
-    DirectLight direct = trace_direct(plan, tracer, connections ? &*connections : nullptr,
+    DirectLight direct = trace_direct(plan, tracer, connections ? &*connections : known,
                                       shared.left(plan.receivers().size()), progress.range(lit, 1));
     Measured measured{.direct = std::move(direct),
                       .lamps = std::move(lamps),

@@ -24,8 +24,8 @@ struct Measured {
 
 /// Measures light at the positions that `plan.options.fit` selects. Rays for this choice are counted in
 /// `statistics`. `last`: whether to gather the last bounce of lamps at the same positions
-/// (DirectLight::lamps).
+/// (DirectLight::lamps). `known`: connections for this bounce that exist already; null: none.
 Measured measure(const BakePlan& plan, Tracer& tracer, LastOfLamps last, BakeStatistics& statistics,
-                 const Progress& progress);
+                 const Progress& progress, const LampConnections* known = nullptr);
 
 } // namespace prt

@@ -2,6 +2,7 @@
 
 #include "bake/pipeline/error_check.h"
 
+#include "bake/pipeline/lamps_of_plan.h"
 #include "bake/pipeline/trace_gather.h"
 #include "bake/reference/back_reach.h"
 #include "bake/surface_fit/varied_samples.h"
@@ -156,7 +157,10 @@ void ErrorCheck::add_backs() {
         }
     if (two_sided.empty())
         return;
-    const std::vector<float> reach = BackReach(plan_.scene, plan_.lamps, plan_.options.seed).means(triangles);
+    // Light of a detailed model reaches the backs of its own surfaces: all are measured.
+    const std::vector<float> reach =
+        plan_.detail ? std::vector<float>(triangles.size(), 1.0f)
+                     : BackReach(plan_.scene, plan_.lamps, plan_.options.seed).means(triangles);
     std::map<int, double> of_nodes, areas;
     for (std::size_t i = 0; i < two_sided.size(); ++i) {
         of_nodes[node_of(*two_sided[i])] += two_sided[i]->area * static_cast<double>(reach[i]);
@@ -185,7 +189,7 @@ void ErrorCheck::trace(Tracer& tracer, double rays, const std::stop_token& stop)
     half_share_ = half / rays;
     TraceOptions options = gather_options(plan_, static_cast<std::uint32_t>(half));
     if (plan_.bounces != 0)
-        gather_.emplace(plan_.scene.surfaces(), *plan_.transport, 2 * rows, plan_.channels);
+        gather_.emplace(plan_.gather_rows(2 * rows));
     for (std::size_t h = 0; h < 2; ++h) {
         options.seed = plan_.options.seed + (h == 0 ? kFirstHalf : kSecondHalf) * kSecondScramble;
         ReceiverSink sink;
@@ -196,14 +200,7 @@ void ErrorCheck::trace(Tracer& tracer, double rays, const std::stop_token& stop)
         sky_[h] = zero_transfer(options.order, 1, rows);
         trace_receivers(tracer, rows_, indices, options, sky_[h], {{}, stop}, sink);
         rays_ += rows * static_cast<std::size_t>(options.rays);
-        LampLight lit = tracer.lamp_light({.scene = plan_.scene,
-                                           .receivers = rows_,
-                                           .lamps = plan_.lamps,
-                                           .options = plan_.options.lamps,
-                                           .channels = plan_.lamp_channels(),
-                                           .seed = options.seed,
-                                           .threads = plan_.options.threads},
-                                          {{}, stop});
+        LampLight lit = light_of_lamps(plan_, tracer, rows_, {.seed = options.seed}, {{}, stop});
         rays_ += lit.rays;
         lamps_[h] = std::move(lit.transfer);
     }
@@ -216,7 +213,8 @@ void ErrorCheck::leave_out_sealed(Tracer& tracer, const std::stop_token& stop) {
     for (const Point& point : points_)
         if (sky_[0].vector(point.front)[0] <= 0 && sky_[1].vector(point.front)[0] <= 0)
             dark.push_back(point.front);
-    const Sealed sealed = find_sealed(tracer, plan_.scene, rows_, std::move(dark), plan_.options.seed, stop);
+    const Sealed sealed =
+        find_sealed(tracer, plan_.traced().scene, rows_, std::move(dark), plan_.options.seed, stop);
     rays_ += sealed.rays;
     std::erase_if(points_, [&](const Point& point) { return sealed.receivers[point.front]; });
 }

@@ -87,7 +87,7 @@ private:
         const double copies = static_cast<double>(samples_.layers) * (lamps_ ? 1 + LampRows::kCopies : 1);
         direct.rays += check_gather_memory(
             plan_, tracer_, layer, {{static_cast<std::uint32_t>(rays_), indices}}, copies, progress.stop);
-        direct.gather.emplace(plan_.scene.surfaces(), *plan_.transport, samples_.size(), plan_.channels);
+        direct.gather.emplace(plan_.gather_rows(samples_.size()));
         if (lamps_)
             direct.lamps.emplace(plan_, samples_.size(), false);
     }
@@ -293,7 +293,7 @@ struct FitRays {
 };
 
 FittedLight trace_fitted(const BakePlan& plan, Tracer& tracer, LastOfLamps last, const FitRays& each,
-                         const Progress& progress) {
+                         const Progress& progress, const LampConnections* known) {
     const Surfaces& surfaces = plan.scene.surfaces();
     const std::size_t on_surfaces = receivers_on_surfaces(plan.receivers()).size();
     const auto layers = static_cast<std::size_t>(each.samples);
@@ -309,12 +309,12 @@ FittedLight trace_fitted(const BakePlan& plan, Tracer& tracer, LastOfLamps last,
                        progress.range(0, lit));
     const std::optional<LampConnections> connections =
         connections_to(plan, last, smooth_lamps(plan, alone, lamps).transfer);
-    SampleTracer traced(plan, tracer, samples, alone, connections ? &*connections : nullptr,
+    SampleTracer traced(plan, tracer, samples, alone, connections ? &*connections : known,
                         std::max(1, each.rays / each.samples));
     DirectLight direct;
     SampleSums sums = traced.trace(direct, progress.range(lit, 0.95));
 
-    const Sealed sealed = find_sealed(tracer, plan.scene, samples.receivers, std::move(sums.dark),
+    const Sealed sealed = find_sealed(tracer, plan.traced().scene, samples.receivers, std::move(sums.dark),
                                       plan.options.seed, progress.stop);
     const bool refilled = plan.options.repairs.inside == Inside::refill;
     if (refilled)
@@ -355,14 +355,14 @@ FittedLight trace_fitted(const BakePlan& plan, Tracer& tracer, LastOfLamps last,
 } // namespace
 
 FittedLight trace_fitted(const BakePlan& plan, Tracer& tracer, LastOfLamps last, int samples,
-                         const Progress& progress) {
+                         const Progress& progress, const LampConnections* known) {
     if (!plan.options.target_error)
-        return trace_fitted(plan, tracer, last, FitRays{samples, plan.options.rays}, progress);
+        return trace_fitted(plan, tracer, last, FitRays{samples, plan.options.rays}, progress, known);
     std::optional<FittedLight> light;
     std::size_t traced = 0;
     const EqualRays equal = equal_rays(*plan.options.target_error, [&](int rays) {
         light.reset(); // only one fits into memory
-        light.emplace(trace_fitted(plan, tracer, last, FitRays{samples, rays}, {{}, progress.stop}));
+        light.emplace(trace_fitted(plan, tracer, last, FitRays{samples, rays}, {{}, progress.stop}, known));
         traced += light->direct.rays;
         return light->direct.sampling_error;
     });

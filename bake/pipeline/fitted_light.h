@@ -24,7 +24,8 @@ struct FittedLight {
 
 /// Divides the rays of each receiver among `samples` samples. With a target error, traces the smallest number
 /// of rays whose noise after the fit is at most the target. The gather operator keeps references to `plan`.
+/// `known`: connections for the last bounce of lamps that exist already; null: none.
 FittedLight trace_fitted(const BakePlan& plan, Tracer& tracer, LastOfLamps last, int samples,
-                         const Progress& progress);
+                         const Progress& progress, const LampConnections* known = nullptr);
 
 } // namespace prt

@@ -127,15 +127,14 @@ LampConnections::Joined LampConnections::join(const Receivers& receivers, std::u
 }
 
 std::optional<LampConnections> connections_to(const BakePlan& plan, LastOfLamps last, const Transfer& light) {
-    if (last != LastOfLamps::connected || plan.lamps.empty() || plan.bounces == 0)
+    if (last != LastOfLamps::connected || plan.detail || plan.lamps.empty() || plan.bounces == 0)
         return std::nullopt;
     return std::optional<LampConnections>(std::in_place, plan, light);
 }
 
-LampRows::LampRows(const BakePlan& plan, std::size_t rows, bool halves)
-    : all(plan.scene.surfaces(), *plan.transport, rows, plan.channels) {
+LampRows::LampRows(const BakePlan& plan, std::size_t rows, bool halves) : all(plan.gather_rows(rows)) {
     if (halves)
-        half.emplace(plan.scene.surfaces(), *plan.transport, rows, plan.channels);
+        half.emplace(plan.gather_rows(rows));
 }
 
 void LampRows::set(std::size_t row, const LampConnections::Joined& joined, int rays) {

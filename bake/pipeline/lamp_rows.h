@@ -47,7 +47,7 @@ private:
 enum class LastOfLamps { as_others, connected };
 
 /// Creates connections for the last bounce of lamps, if `last` requests them and `plan` has lamps and
-/// bounces.
+/// bounces, and light bounces between its receivers.
 std::optional<LampConnections> connections_to(const BakePlan& plan, LastOfLamps last, const Transfer& light);
 
 /// Rows that gather the light of lamps at receivers.

@@ -10,7 +10,7 @@ namespace prt {
 
 LampLight light_of_lamps(const BakePlan& plan, Tracer& tracer, const Receivers& receivers,
                          const LampSamples& samples, const Progress& progress) {
-    LampTask task{.scene = plan.scene,
+    LampTask task{.scene = plan.traced().scene,
                   .receivers = receivers,
                   .lamps = plan.lamps,
                   .options = plan.options.lamps,

@@ -142,6 +142,17 @@ std::vector<std::vector<float>> gather_beside(const TransportOperators& operator
     return gathered;
 }
 
+/// Adds the last bounce, from surfaces that are not receivers.
+Propagated gather_once(Transfer light, TransportOperators operators, int threads) {
+    operators.optional_work.push_back(operators.gather);
+    std::vector<std::vector<float>> gathered = gather_beside(operators, *operators.sources, threads);
+    for (std::size_t i = 0; i < light.vectors.size(); ++i)
+        light.vectors[i] += gathered.back()[i];
+    gathered.pop_back();
+    exit_from_incident(operators, light.layout.order, light.layout.channels(), light.vectors, threads);
+    return {.transfer = std::move(light), .optional_work = std::move(gathered)};
+}
+
 /// Remaining energy after a bounce, as a geometric series, relative to the sum of all bounces.
 double remaining_after(const BounceEnergy& energy, double total) {
     const double ratio = energy.before_last > 0 ? energy.last / energy.before_last : 0;
@@ -294,6 +305,8 @@ void add_last_bounce(const SurfaceFit& fit, const SampledLight& rest, const Tran
 
 Propagated propagate(Transfer direct, const TransportOperators& operators, int bounces, int threads,
                      const Progress& progress) {
+    if (operators.sources && operators.gather)
+        return gather_once(std::move(direct), operators, threads);
     exit_from_incident(operators, direct.layout.order, direct.layout.channels(), direct.vectors, threads);
     if (!operators.gather || bounces == 0)
         return {.transfer = std::move(direct)};
@@ -321,10 +334,12 @@ SharpTransfer propagate_sharply(Transfer smooth, const LightAtSamples& light,
         const bool endless = bounces == kEndlessBounces;
         TransportOperators alone = operators;
         alone.optional_work.clear();
-        sharp.exit = propagate(smooth, alone, endless ? bounces : bounces - 1, threads, progress);
-        sharp.exit.optional_work = gather_beside(operators, sharp.exit.transfer, threads);
-        rest = bounce_to_samples(sharp.exit.transfer, operators, light, threads);
-        if (!endless)
+        if (!operators.sources)
+            sharp.exit = propagate(smooth, alone, endless ? bounces : bounces - 1, threads, progress);
+        const Transfer& sources = operators.sources ? *operators.sources : sharp.exit.transfer;
+        sharp.exit.optional_work = gather_beside(operators, sources, threads);
+        rest = bounce_to_samples(sources, operators, light, threads);
+        if (!endless && !operators.sources)
             add_last_bounce(fit, *rest, smooth, sharp.exit);
     }
     std::optional<FitSolver> of_rest;

@@ -22,8 +22,10 @@ struct TransportOperators {
     std::span<const DiffusionOperator> diffusion;
     const GatherOperator* gather = nullptr; ///< null: no bounces
     GatherProduct* product = nullptr;       ///< product on a device; null: on the CPU
-    const SurfaceFit* fit = nullptr; ///< fit whose samples are the rows of `gather`; receivers use smooth
-                                     ///< values of them; null: rows are receivers
+    const SurfaceFit* fit = nullptr;   ///< fit whose samples are the rows of `gather`; receivers use smooth
+                                       ///< values of them; null: rows are receivers
+    const Transfer* sources = nullptr; ///< exit transfer before the last bounce of the surfaces that `gather`
+                                       ///< gathers from; null: the receivers are these surfaces
     std::vector<const GatherOperator*> optional_work = {}; ///< additional rows that gather the last bounce
 };
 

@@ -105,6 +105,17 @@ SampledLight one_channel(const SampledLight& light, std::size_t channels, std::s
             .values = slice(light.values, light.tests)};
 }
 
+/// Calls `work` with the operators for one channel of the light of lamps.
+template <class Work>
+auto in_channel(TransportOperators operators, int channel, const Work& work) {
+    Transfer sources;
+    if (operators.sources && operators.sources->layout.channels() > 1) {
+        sources = one_channel(*operators.sources, channel);
+        operators.sources = &sources;
+    }
+    return work(operators);
+}
+
 /// Propagates lamps at samples of the surface. The light has one channel, or the same number of channels as
 /// the bounces.
 SharpTransfer sharp_lamps(const BakePlan& plan, Transfer smooth, const SampledLight& sampled,
@@ -132,8 +143,10 @@ SharpTransfer sharp_lamps_in_color(const BakePlan& plan, const Transfer& smooth,
                                    const GatherOperator* last, const TransportOperators& operators,
                                    const Progress& progress) {
     const auto color = [&](int c) {
-        return sharp_lamps(plan, one_channel(smooth, c), one_channel(sampled, 3, static_cast<std::size_t>(c)),
-                           last, operators, progress);
+        return in_channel(operators, c, [&](const TransportOperators& here) {
+            return sharp_lamps(plan, one_channel(smooth, c),
+                               one_channel(sampled, 3, static_cast<std::size_t>(c)), last, here, progress);
+        });
     };
     const SharpTransfer red = color(0), green = color(1), blue = color(2);
     return {in_color(red.direct, green.direct, blue.direct), in_color(red.exit, green.exit, blue.exit)};
@@ -311,7 +324,9 @@ Propagated propagate_lamps_on_both_sides(const BakePlan& plan, Transfer light,
     Propagated all;
     if (separate_colors(plan, light)) {
         const auto color = [&](int c) {
-            return propagate(one_channel(light, c), operators, bounces, threads, progress);
+            return in_channel(operators, c, [&](const TransportOperators& here) {
+                return propagate(one_channel(light, c), here, bounces, threads, progress);
+            });
         };
         const Propagated red = color(0), green = color(1), blue = color(2);
         all = in_color(red, green, blue);

@@ -11,10 +11,6 @@
 namespace prt {
 namespace {
 
-GatherOperator empty_gather(const BakePlan& plan, std::size_t rows) {
-    return {plan.scene.surfaces(), *plan.transport, rows, plan.channels};
-}
-
 struct GatherEstimate {
     double bytes = 0;
     std::size_t rays = 0; ///< rays of the estimate
@@ -28,7 +24,7 @@ GatherEstimate estimate_gather(const BakePlan& plan, Tracer& tracer, std::uint32
     std::vector<std::uint32_t> some;
     for (std::size_t i = 0; i < count; ++i)
         some.push_back(indices[i * indices.size() / count]);
-    GatherOperator rows = empty_gather(plan, receivers.size());
+    GatherOperator rows = plan.gather_rows(receivers.size());
     const auto empty = static_cast<double>(rows.bytes());
     TraceOptions options = gather_options(plan, std::min(rays, 4096u));
     options.order = 1;
@@ -57,7 +53,7 @@ std::size_t check_gather_memory(const BakePlan& plan, Tracer& tracer, const Rece
     for (const auto& [rays, members] : by_rays)
         most += static_cast<double>(members.size()) * rays * GatherOperator::kMaxBytesPerRay;
     // A ray can hit any number of blended surfaces.
-    if (!plan.scene.surfaces().traits().alpha && fits_memory(plan, most * copies))
+    if (!plan.traced().scene.surfaces().traits().alpha && fits_memory(plan, most * copies))
         return 0;
     for (const auto& [rays, members] : by_rays) {
         const GatherEstimate estimate = estimate_gather(plan, tracer, rays, receivers, members, stop);
@@ -71,20 +67,20 @@ std::size_t check_gather_memory(const BakePlan& plan, Tracer& tracer, const Rece
 TracedGather trace_gather(const BakePlan& plan, Tracer& tracer, const LampConnections* lamps,
                           std::span<const std::uint32_t> rays_of, Transfer& transfer, HalfOfRays* half,
                           const Progress& progress) {
+    const Receivers& receivers = plan.transport->measured();
     ByRays by_rays;
     std::size_t all = 0, done = 0;
-    for (const std::uint32_t p : receivers_on_surfaces(plan.receivers())) {
+    for (const std::uint32_t p : receivers_on_surfaces(receivers)) {
         by_rays[rays_of[p]].push_back(p);
         all += rays_of[p];
     }
     const double copies = 1 + (lamps ? LampRows::kCopies : 0) + (half ? 0.5 : 0);
-    TracedGather traced{
-        empty_gather(plan, plan.receivers().size()), std::nullopt,
-        all + check_gather_memory(plan, tracer, plan.receivers(), by_rays, copies, progress.stop)};
+    TracedGather traced{plan.gather_rows(receivers.size()), std::nullopt,
+                        all + check_gather_memory(plan, tracer, receivers, by_rays, copies, progress.stop)};
     if (lamps)
-        traced.lamps.emplace(plan, plan.receivers().size(), half != nullptr);
+        traced.lamps.emplace(plan, receivers.size(), half != nullptr);
     if (half)
-        half->gather.emplace(empty_gather(plan, plan.receivers().size()));
+        half->gather.emplace(plan.gather_rows(receivers.size()));
     const auto share = [&](std::size_t rays) { return static_cast<double>(rays) / static_cast<double>(all); };
     for (const auto& [rays, members] : by_rays) {
         const TraceOptions options = gather_options(plan, rays);
@@ -93,16 +89,16 @@ TracedGather trace_gather(const BakePlan& plan, Tracer& tracer, const LampConnec
         const auto set_rows = [&](std::uint32_t p, std::span<const Hit> hits) {
             traced.gather.set_row(p, hits, options.rays);
             if (lamps)
-                traced.lamps->set(p, lamps->join(plan.receivers(), p, hits, options), options.rays);
+                traced.lamps->set(p, lamps->join(receivers, p, hits, options), options.rays);
         };
         if (half && first_half(options.rays) > 0)
-            trace_in_halves(tracer, plan.receivers(), members, options, {transfer, half->direct}, term,
+            trace_in_halves(tracer, receivers, members, options, {transfer, half->direct}, term,
                             [&](std::uint32_t p, std::span<const Hit> hits, std::span<const Hit> first) {
                                 set_rows(p, hits);
                                 half->gather->set_row(p, first, first_half(options.rays));
                             });
         else
-            trace_receivers(tracer, plan.receivers(), members, options, transfer, term, set_rows);
+            trace_receivers(tracer, receivers, members, options, transfer, term, set_rows);
         done += here;
     }
     return traced;

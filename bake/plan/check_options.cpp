@@ -23,6 +23,13 @@ void check_raster_options(const BakeOptions& options) {
 
 } // namespace
 
+void check_finer(const FinerModel& finer) {
+    if (finer.scene && !(finer.reach > 0 && finer.reach <= kFarthestVertex))
+        throw Error(
+            fmt::format("the distance of the high-poly model must be greater than 0 and at most {:g} m",
+                        kFarthestVertex));
+}
+
 void check_options(const BakeOptions& options) {
     check_order(options.order);
     if (options.rays < 1 || options.rays > kMaxRays)

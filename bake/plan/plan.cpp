@@ -57,7 +57,11 @@ int BakePlan::direct_channels() const {
 }
 
 int BakePlan::lamp_channels() const {
-    return channels == 3 || !are_white(scene.surfaces(), lamps) ? 3 : 1;
+    return channels == 3 || !are_white(traced().scene.surfaces(), lamps) ? 3 : 1;
+}
+
+GatherOperator BakePlan::gather_rows(std::size_t rows) const {
+    return {traced().scene.surfaces(), *traced().transport, rows, channels};
 }
 
 std::size_t BakePlan::numbers() const {
@@ -67,7 +71,7 @@ std::size_t BakePlan::numbers() const {
            lamps.size() * static_cast<std::size_t>(lamp_channels());
 }
 
-Media choose_media(const Scene& scene, const BakeOptions& options) {
+Media choose_media(const Scene& scene, const BakeOptions& options, const Scene* other) {
     Media media;
     for (const Material& material : scene.materials)
         media.push_back(medium_of(material));
@@ -78,7 +82,7 @@ Media choose_media(const Scene& scene, const BakeOptions& options) {
                 media[m] = choice.medium;
                 found = true;
             }
-        if (!found)
+        if (!found && !(other && std::ranges::count(other->materials, choice.material, &Material::name) > 0))
             throw Error(fmt::format("no material has the name '{}'", choice.material));
     }
     for (std::size_t m = 0; m < media.size(); ++m)
@@ -120,33 +124,48 @@ std::vector<std::string> scene_notices(const TraceScene& scene, const BakeOption
     return notices;
 }
 
-BakePlan plan_bake(const TraceScene& scene, const Media& media, const BakeOptions& options) {
+BakePlan plan_bake(const TraceScene& scene, const Media& media, const BakeOptions& options,
+                   DetailedPlan* detail) {
     const SurfaceTraits& traits = scene.surfaces().traits();
     BakePlan plan{.scene = scene,
                   .options = options,
-                  .bounces = options.bounces,
+                  .bounces = detail ? detail->plan.bounces : options.bounces,
                   .transport = {},
                   .diffusion = {},
-                  .lamps = choose_lamps(scene.surfaces(), options.lamps),
+                  .lamps = detail ? detail->plan.lamps : choose_lamps(scene.surfaces(), options.lamps),
                   .notices = scene_notices(scene, options)};
-    if (plan.bounces != 0 && !traits.scattering) {
+    if (detail)
+        plan.detail = &detail->plan;
+    else if (plan.bounces != 0 && !traits.scattering) {
         plan.bounces = 0;
         plan.notices.push_back("bounces are skipped: all surfaces are black");
     }
-    const bool from_surfaces = plan.bounces != 0 || traits.transmission;
-    Receivers fronts = vertex_receivers(scene.scene());
-    plan.transport = std::make_unique<const TransportReceivers>(
-        from_surfaces ? with_back_sides(std::move(fronts), scene.surfaces())
-                      : without_back_sides(std::move(fronts)));
+    const bool from_surfaces = (plan.bounces != 0 && !detail) || traits.transmission;
+    TransportReceivers fronts = without_back_sides(vertex_receivers(scene.scene()));
+    plan.transport = std::make_unique<const TransportReceivers>(measured_on(
+        detail ? &detail->surface : nullptr,
+        from_surfaces ? with_back_sides(std::move(fronts.receivers), scene.surfaces()) : std::move(fronts)));
     plan.diffusion = make_diffusion(scene.scene(), media, plan.receivers());
     const bool grey_media =
         std::all_of(plan.diffusion.begin(), plan.diffusion.end(), [](const auto& d) { return d.is_grey(); });
     plan.channels = (traits.color && from_surfaces) || !grey_media ? 3 : 1;
+    if (detail) {
+        plan.channels = detail->plan.channels = std::max(plan.channels, detail->plan.channels);
+        for (const std::string& notice : detail->plan.notices)
+            if (std::ranges::count(plan.notices, notice) == 0)
+                plan.notices.push_back(notice);
+    }
+    const std::string one_channel =
+        fmt::format("the transfer has one channel: {}",
+                    plan.bounces != 0 ? "all surfaces are grey" : "direct light is white");
+    std::erase(plan.notices, one_channel);
     if (plan.channels == 1)
-        plan.notices.push_back(
-            fmt::format("the transfer has one channel: {}",
-                        plan.bounces != 0 ? "all surfaces are grey" : "direct light is white"));
+        plan.notices.push_back(one_channel);
     return plan;
 }
+
+DetailedPlan::DetailedPlan(const Scene& scene, const FinerModel& finer, const BakeOptions& options)
+    : media(choose_media(*finer.scene, options, &scene)), traced(trace_scene(*finer.scene, media, options)),
+      plan(plan_bake(traced, media, options)), surface(traced, finer.reach, scene.origin) {}
 
 } // namespace prt

@@ -52,8 +52,8 @@ glm::vec2 clamped(glm::dvec2 uv) {
 
 } // namespace
 
-LitMesh::LitMesh(const Scene& scene, const std::vector<bool>& kept)
-    : surfaces(scene, textures), receivers(without_back_sides(vertex_receivers(scene))) {
+LitMesh::LitMesh(const Scene& scene, const std::vector<bool>& kept, const DetailedSurface* detail)
+    : surfaces(scene, textures), receivers(measured_on(detail, without_back_sides(vertex_receivers(scene)))) {
     for (std::uint32_t t = 0; t < surfaces.triangles(); ++t) {
         const std::vector<glm::vec3>& at = receivers.receivers.positions;
         const glm::uvec3& c = surfaces.corners(t);

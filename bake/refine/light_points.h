@@ -17,8 +17,9 @@ namespace prt {
 
 /// A mesh over which light is interpolated, with front sides only.
 struct LitMesh {
-    /// Keeps a reference to `scene`. `kept`: [primitives] true: triangles of the primitive have an area of 0.
-    LitMesh(const Scene& scene, const std::vector<bool>& kept);
+    /// Keeps references. `kept`: [primitives] true: triangles of the primitive have an area of 0. `detail`:
+    /// surface on which the points are measured; null: the mesh.
+    LitMesh(const Scene& scene, const std::vector<bool>& kept, const DetailedSurface* detail);
     LitMesh(const LitMesh&) = delete;
 
     const std::vector<Texture> textures; ///< always empty
@@ -33,8 +34,8 @@ struct LitMesh {
 /// the other. Light is never traced twice at a point.
 class LightPoints {
 public:
-    /// Keeps references. `tolerance`: significant relative error; the number of rays is high enough that
-    /// noise does not hide it.
+    /// Keeps references. `scene`: surfaces that rays hit; `tolerance`: significant relative error; the number
+    /// of rays is high enough that noise does not hide it.
     LightPoints(const TraceScene& scene, Tracer& tracer, const BakeOptions& options, double tolerance);
 
     /// Adds points until each triangle of `mesh` has enough.

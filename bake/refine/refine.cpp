@@ -13,6 +13,7 @@
 #include <cmath>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 namespace prt {
@@ -47,9 +48,9 @@ std::vector<bool> primitives_of(const Scene& scene, std::vector<int> nodes) {
 /// Refines a scene in rounds.
 class Refiner {
 public:
-    Refiner(const Scene& scene, const TraceScene& traced, Tracer& tracer, const BakeOptions& options,
-            const RefineOptions& how)
-        : options_(options), how_(how), points_(traced, tracer, options, how.target),
+    Refiner(const Scene& scene, const TraceScene& traced, const DetailedSurface* detail, Tracer& tracer,
+            const BakeOptions& options, const RefineOptions& how)
+        : options_(options), how_(how), detail_(detail), points_(traced, tracer, options, how.target),
           kept_(primitives_of(scene, how.kept_nodes)), finer_(scene) {
         const Bounds box = bounds(scene);
         const glm::vec3 size = box.high - box.low;
@@ -91,7 +92,7 @@ public:
 
 private:
     SurfaceError measure(const Progress& progress) {
-        const LitMesh mesh(finer_, kept_);
+        const LitMesh mesh(finer_, kept_, detail_);
         points_.spread(mesh, progress.range(shown_, shown_ + 0.1 * (1 - shown_)));
         shown_ += 0.1 * (1 - shown_);
         SurfaceError error = surface_error(mesh, points_, options_.threads);
@@ -161,6 +162,7 @@ private:
 
     const BakeOptions& options_;
     const RefineOptions& how_;
+    const DetailedSurface* detail_; ///< may be null
     LightPoints points_;
     std::vector<bool> kept_; ///< [primitives] true: triangles are not split
     Scene finer_;
@@ -173,14 +175,20 @@ private:
 } // namespace
 
 RefineResult refine(const Scene& scene, const BakeOptions& options, const RefineOptions& how,
-                    const Progress& progress) {
+                    const Progress& progress, const FinerModel& finer) {
     check_options(options, how);
+    check_finer(finer);
     const Stopwatch all;
     BakeOptions direct = options; // nothing bounces here
     direct.bounces = 0;
-    const TraceScene traced = trace_scene(scene, choose_media(scene, options), direct);
+    const Scene &shown = finer.scene ? *finer.scene : scene, *other = finer.scene ? &scene : nullptr;
+    const TraceScene traced = trace_scene(shown, choose_media(shown, options, other), direct);
+    std::optional<DetailedSurface> detail;
+    if (finer.scene)
+        detail.emplace(traced, finer.reach, scene.origin);
     const std::unique_ptr<Tracer> tracer = make_tracer(traced, options.tracer);
-    RefineResult result = Refiner(scene, traced, tracer->rays(), options, how).run(progress);
+    RefineResult result =
+        Refiner(scene, traced, detail ? &*detail : nullptr, tracer->rays(), options, how).run(progress);
     result.statistics.seconds = all.seconds();
     return result;
 }

@@ -11,6 +11,15 @@ TransportReceivers without_back_sides(Receivers fronts) {
     return {std::move(fronts), {}, count};
 }
 
+TransportReceivers measured_on(const DetailedSurface* detail, TransportReceivers receivers) {
+    receivers.detail = detail;
+    if (detail) {
+        receivers.moved = receivers.receivers;
+        detail->move(receivers.moved);
+    }
+    return receivers;
+}
+
 TransportReceivers with_back_sides(Receivers fronts, const Surfaces& surfaces) {
     TransportReceivers result = without_back_sides(std::move(fronts));
     Receivers& all = result.receivers;

@@ -33,7 +33,7 @@ public:
         : plan_(plan), tracer_(tracer), progress_(progress), samples_(points()) {}
 
     FitTrial run() {
-        const Receivers& vertices = plan_.receivers();
+        const Receivers& vertices = plan_.transport->measured();
         std::vector<std::uint32_t> corners, all(samples_.size());
         std::iota(all.begin(), all.end(), 0u);
         for (const SamplePosition& position : samples_.positions)
@@ -78,7 +78,7 @@ private:
                                        std::clamp(plan_.options.rays / kShareOfFirstLook, 1, kMaxFirstRays),
                                    .seed = plan_.options.seed + 4 * kSecondScramble};
         Transfer light = zero_transfer(1, 1, plan_.receivers().size());
-        trace_receivers(tracer_, plan_.receivers(), indices, options, light, {{}, progress_.stop});
+        trace_receivers(tracer_, plan_.transport->measured(), indices, options, light, {{}, progress_.stop});
         result_.rays += indices.size() * static_cast<std::size_t>(options.rays);
         return std::move(light.vectors);
     }
@@ -116,8 +116,8 @@ private:
         for (const std::uint32_t p : indices)
             if (light.first.vector(p)[0] <= 0 && light.second.vector(p)[0] <= 0)
                 dark.push_back(p);
-        const Sealed found =
-            find_sealed(tracer_, plan_.scene, receivers, std::move(dark), plan_.options.seed, progress_.stop);
+        const Sealed found = find_sealed(tracer_, plan_.traced().scene, receivers, std::move(dark),
+                                         plan_.options.seed, progress_.stop);
         result_.rays += found.rays;
         return found.receivers;
     }

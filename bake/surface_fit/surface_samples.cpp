@@ -146,6 +146,8 @@ void append_sample(SurfaceSamples& samples, const Surfaces& surfaces, const Tran
         all, corner_receivers(surfaces, receivers, position.triangle, position.back), position, of_plane));
     r.areas.push_back(area);
     r.starts.push_back(of_plane);
+    if (receivers.detail)
+        receivers.detail->move(r, r.size() - 1);
 }
 
 SurfaceSamples sample_surfaces(const Surfaces& surfaces, const TransportReceivers& receivers,

@@ -57,7 +57,8 @@ std::uint32_t side_hash(const TriangleSide& side, std::uint64_t seed);
 /// any number of points: the sequence R2 of M. Roberts, 2018, folded. `hash` shifts it.
 glm::vec2 even_point(std::uint32_t hash, std::size_t i);
 
-/// Appends a sample at `position`, on a triangle with an area, that represents `area`.
+/// Appends a sample at `position`, on a triangle with an area, that represents `area`. The sample is measured
+/// on the detailed surface of `receivers`, if there is one.
 void append_sample(SurfaceSamples& samples, const Surfaces& surfaces, const TransportReceivers& receivers,
                    const SamplePosition& position, float area);
 

@@ -112,7 +112,7 @@ const std::vector<HelpGroup>& help_groups() {
         {"Lamps", {"lamps", "lamp-scale"}, {}},
         {"Materials", {"subsurface", "no-shadow"}, {"metres-per-unit", "back-sides"}},
         {"Occlusion", {"falloff", "max-distance", "bent-normals", "occluders"}, {"attribute"}},
-        {"Lightmap", {"texels", "high-poly"}, {}},
+        {"Lightmap and detailed model", {"texels", "high-poly"}, {}},
         {"Volume", {"volume"}, {}},
         {"Instances and levels of detail", {"instances", "levels"}, {}},
         {"File", {"combine-direct", "fallback", "reorder", "meshopt"}, {}},

@@ -27,7 +27,7 @@ constexpr Choice<InstanceMode> kInstanceModes[] = {
      "bake a mesh once; 52 bytes per instance describe the effect of its surroundings\n"
      "  instances that are mirrored, sheared, skinned or morphed, or have unequal scale: as own\n"
      "  an error if no mesh has at least two instances that can share\n"
-     "  not with --texels; with --refine, these meshes are not split\n"
+     "  not with --texels and --high-poly; with --refine, these meshes are not split\n"
      "  with subsurface scattering, instances of another scale than most of their mesh: as own\n"
      "  with coarser levels of detail, instances that have them: as own\n"
      "  lamps: traced at the vertices of all instances; 304 bytes more per lamp and instance"},

@@ -91,20 +91,21 @@ CLI::Option* add_texels(CLI::App* command, TexelArguments& a, const std::string&
                  [&a](const std::string& name) { a.texels.atlases = chosen("--texels", kAtlasModes, name); })
             .detail("  auto: one if the charts of all objects do not overlap or the set is new, else each")
             .add(command);
-    Suboptions("--high-poly", "FILE",
-               "trace rays against this detailed model instead of the scene\n"
-               "needs --texels; FILE: .gltf or .glb, in the coordinate frame of the scene\n"
-               "a texel is measured on the outermost detailed surface along its normal, within the distance\n"
-               "  outwards and inwards, that faces the same way; if it is missing, on the scene\n"
-               "  an error if it is missing for all texels\n"
-               "prt bake: bounces, emissive materials and light of probes (--volume) are also those of FILE\n"
-               "  lights: those of FILE, and those of the scene whose names FILE does not contain\n"
-               "--no-shadow has no effect on this model",
-               [&a](const std::string& file) {
-                   if (file.empty())
-                       throw CLI::ValidationError("--high-poly", "the name of the file is empty");
-                   a.high_poly = file;
-               })
+    Suboptions(
+        "--high-poly", "FILE",
+        "trace rays against this detailed model instead of the scene\n"
+        "FILE: .gltf or .glb, in the coordinate frame of the scene\n"
+        "a vertex or texel is measured on the outermost detailed surface along its normal, within the\n"
+        "  distance outwards and inwards, that faces the same way; if it is missing, on the scene\n"
+        "  an error if it is missing everywhere\n"
+        "prt bake: bounces, emissive materials and light of probes (--volume) are also those of FILE\n"
+        "  lights: those of FILE, and those of the scene whose names FILE does not contain\n"
+        "--no-shadow has no effect on this model",
+        [&a](const std::string& file) {
+            if (file.empty())
+                throw CLI::ValidationError("--high-poly", "the name of the file is empty");
+            a.high_poly = file;
+        })
         .number("distance", 1e-9, 1e9,
                 "maximum distance from the scene, metres [diagonal of its bounding box / 50]",
                 [&a](double metres) { a.distance = metres; })
@@ -118,12 +119,10 @@ void check_texels(const TexelArguments& a) {
         throw Error("--high-poly needs a file, as --high-poly detailed.glb,distance=0.1");
     if (!a.given() && a.option->count() > 0)
         throw Error("--texels needs a size, as --texels 1024 or --texels 64/m");
-    if (!a.given() && !a.high_poly.empty())
-        throw Error("--high-poly needs textures: add --texels");
 }
 
-Finer load_finer(const TexelArguments& a, const GltfOptions& reading, const Scene& scene) {
-    Finer finer;
+HighPoly load_high_poly(const TexelArguments& a, const GltfOptions& reading, const Scene& scene) {
+    HighPoly finer;
     if (a.high_poly.empty())
         return finer;
     finer.scene = extract_scene(load_gltf(a.high_poly, reading));

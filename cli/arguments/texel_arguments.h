@@ -30,17 +30,18 @@ struct TexelArguments {
 /// Adds --texels and --high-poly. Returns --texels. `text` says what is baked.
 CLI::Option* add_texels(CLI::App* command, TexelArguments& arguments, const std::string& text);
 
-/// Throws `Error` for --high-poly if no textures are requested.
+/// Throws `Error` for settings of --texels and --high-poly without their values.
 void check_texels(const TexelArguments& arguments);
 
-/// A finer model, and its maximum distance: by default a fiftieth of the scene's extent.
-struct Finer {
+/// The model of --high-poly, and its maximum distance: by default a fiftieth of the scene's extent.
+struct HighPoly {
     std::optional<Scene> scene;
     double distance = 0;
 
     FinerModel model() const { return {scene ? &*scene : nullptr, distance}; }
 };
-Finer load_finer(const TexelArguments& arguments, const GltfOptions& reading, const Scene& scene);
+/// Returns no scene without --high-poly.
+HighPoly load_high_poly(const TexelArguments& arguments, const GltfOptions& reading, const Scene& scene);
 
 /// Textures for the scene, and figures about their layout.
 struct TexelRoom {

@@ -119,7 +119,8 @@ double black_share(std::span<const float> ambient, std::span<const float> areas)
 
 Report bake_vertices(const AoArguments& a, GltfDocument& document, const Scene& scene,
                      const Progress& progress) {
-    const OcclusionResult result = ambient_occlusion(scene, a.options, progress);
+    const HighPoly finer = load_high_poly(a.textures, a.reading, scene);
+    const OcclusionResult result = ambient_occlusion(scene, a.options, progress, finer.model());
     const BakeStatistics& s = result.statistics;
     std::vector<VertexAttribute> attributes;
     if (a.attribute == "COLOR_0")
@@ -147,13 +148,18 @@ Report bake_vertices(const AoArguments& a, GltfDocument& document, const Scene& 
                     "each, on {{device}}",
                     a.attribute == "COLOR_0" ? "COLOR_0, multiplied by the existing colors" : a.attribute),
         s.fit.samples > 0 ? "fitted to the surface between vertices" : "measured at vertices"};
-    add_notices(report, notices_of_black(a, black_share(result.ambient_visibility.ambient, areas)));
+    std::vector<std::string> notices =
+        notices_of_black(a, black_share(result.ambient_visibility.ambient, areas));
+    std::ranges::copy_if(s.notices, std::back_inserter(notices), [](const std::string& notice) {
+        return !notice.starts_with("the transfer has one channel"); // occlusion has no color
+    });
+    add_notices(report, notices);
     return report;
 }
 
 Report bake_textures(const AoArguments& a, GltfDocument& document, const Scene& scene,
                      const std::vector<Atlas>& atlases, const Progress& progress) {
-    const Finer finer = load_finer(a.textures, a.reading, scene);
+    const HighPoly finer = load_high_poly(a.textures, a.reading, scene);
     std::vector<SurfaceTexture> textures;
     Json maps = Json::array();
     std::size_t lit = 0, measured = 0, bright = 0;
@@ -211,6 +217,8 @@ void check_arguments(const AoArguments& a) {
     if (a.attribute == kBentNormal && a.outputs.bent_normals)
         throw Error("--attribute: _BENT_NORMAL is the attribute of --bent-normals; choose another name");
     check_texels(a.textures);
+    if (a.outputs.occluders && !a.textures.high_poly.empty())
+        throw Error("--occluders does not support --high-poly: bake the volumes of the detailed model");
     if (a.outputs.occluders && !a.options.tracer.falloff.blocks_everywhere())
         throw Error(
             "--occluders does not support --falloff and --max-distance: its volumes have their own reach");

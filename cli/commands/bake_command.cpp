@@ -41,6 +41,7 @@ struct BakeArguments {
     struct Finer {
         std::optional<double> refine; ///< relative L2 over the surface to split triangles for
         std::size_t max_vertices = 0; ///< maximum for a refined scene; 0: no limit except `refine`
+        HighPoly high_poly;           ///< loaded model of --high-poly
     } finer;
     BackSides back_sides = BackSides::automatic;
     TexelArguments texels;  ///< if given: baked in place of vertices
@@ -265,7 +266,7 @@ std::optional<RefineStatistics> refine(const BakeArguments& a, GltfDocument& doc
         for (const MeshPlacement& placement : mesh.placements)
             how.kept_nodes.push_back(placement.node);
     ProgressBar bar = session.progress_bar("refining");
-    const RefineResult result = prt::refine(scene, a.options, how, bar.progress());
+    const RefineResult result = prt::refine(scene, a.options, how, bar.progress(), a.finer.high_poly.model());
     if (result.statistics.rounds == 0)
         return result.statistics;
     document = meshes.meshes.empty() ? refined(std::move(document), scene, result.refinement)
@@ -291,7 +292,7 @@ Baked bake_scene(const BakeArguments& a, GltfDocument& document, Scene& scene, S
     SharedMeshes none;
     baked.refinement = refine(a, document, scene, none, session);
     ProgressBar bar = session.progress_bar("baking");
-    baked.result = bake(scene, a.options, bar.progress(), MeasureErrors::yes);
+    baked.result = bake(scene, a.options, bar.progress(), MeasureErrors::yes, a.finer.high_poly.model());
     return baked;
 }
 
@@ -302,6 +303,11 @@ SidesRequest sides_of(const BakeArguments& a) {
             .no_shadow = a.no_shadow,
             .levels = a.levels != LevelMode::ignore,
             .notify = print_notices};
+}
+
+/// Returns the scene whose surfaces and lights are baked.
+const Scene& lit_scene(const BakeArguments& a, const Scene& scene) {
+    return a.finer.high_poly.scene ? *a.finer.high_poly.scene : scene;
 }
 
 /// Bakes the requested volume of the light of `scene`.
@@ -338,7 +344,7 @@ void write_vertices(const BakeArguments& a, GltfDocument& document, const Scene&
     Scene& all = levels->scene.scene;
     leave_out_shadows(all, a.no_shadow);
     ProgressBar bar = session.progress_bar("levels of detail");
-    bake_levels(*levels, baked.transfer, a.options, bar.progress());
+    bake_levels(*levels, baked.transfer, a.options, bar.progress(), a.finer.high_poly.model());
     BakedTransfer whole{std::move(levels->bake.transfer), baked.record, baked.storage};
     write_transfer(document, all, whole);
 }
@@ -358,9 +364,10 @@ void run_vertices(const BakeArguments& a, GltfDocument& document, Scene& scene, 
         a.scene, [&] { return find_levels(a.levels, a.scene, document, a.options.threads, print_notices); });
     const Baked baked = about(a.scene, [&] { return bake_scene(a, document, scene, session); });
     note_lights(a, scene, baked.result.baked.transfer, receiver_areas(scene));
-    const std::optional<VolumeBake> volume = bake_probes(a, scene, session);
+    const Scene& lit = lit_scene(a, scene);
+    const std::optional<VolumeBake> volume = bake_probes(a, lit, session);
     about(a.scene, [&] { write_vertices(a, document, scene, baked.result.baked, levels, session); });
-    const std::vector<std::byte> file = with_volume(a, document, scene, volume);
+    const std::vector<std::byte> file = with_volume(a, document, lit, volume);
     Report report = bake_report({.output = a.output.string(),
                                  .options = a.options,
                                  .no_shadow = !a.no_shadow.empty(),
@@ -389,16 +396,13 @@ void note_missing_lamps(const BakeArguments& a, const Scene& scene, const Scene&
 
 void run_texels(const BakeArguments& a, GltfDocument& document, Scene& scene, const TexelRoom& room,
                 Session& session) {
-    const Finer finer = load_finer(a.texels, a.reading, scene);
-    if (finer.scene && a.options.lamps.mode != LampMode::none)
-        note_missing_lamps(a, scene, *finer.scene);
     leave_out_shadows(scene, a.no_shadow);
     const LightmapBake baked = about(a.scene, [&] {
         ProgressBar bar = session.progress_bar("baking");
-        return bake_lightmap(scene, room.atlases, a.options, finer.model(), bar.progress());
+        return bake_lightmap(scene, room.atlases, a.options, a.finer.high_poly.model(), bar.progress());
     });
     note_lights(a, scene, baked.lightmap.baked.transfer, baked.lightmap.areas);
-    const Scene& lit = finer.scene ? *finer.scene : scene;
+    const Scene& lit = lit_scene(a, scene);
     const std::optional<VolumeBake> volume = bake_probes(a, lit, session);
     about(a.scene, [&] { write_lightmap(document, scene, baked.lightmap); });
     const std::vector<std::byte> file = with_volume(a, document, lit, volume);
@@ -486,6 +490,9 @@ void run(BakeArguments a, Session& session) {
     Scene scene = extract_scene(document);
     read_occluders(document); // which it passes on
     print_notices(a.scene.string(), scene.notices);
+    a.finer.high_poly = load_high_poly(a.texels, a.reading, scene);
+    if (a.finer.high_poly.scene && a.options.lamps.mode != LampMode::none)
+        note_missing_lamps(a, scene, *a.finer.high_poly.scene);
     TexelRoom room;
     if (a.texels.given() && a.texels.unwrap)
         about(a.scene, [&] { separate_sides(sides_of(a), document, scene); });
@@ -493,7 +500,8 @@ void run(BakeArguments a, Session& session) {
         room = about(a.scene, [&] { return make_room(a.texels, a.scene, document, scene); });
     const SharedMeshes meshes = about(a.scene, [&] {
         return meshes_to_share(a.instances, document, scene,
-                               {a.options, a.texels.given(), a.finer.refine.has_value(), a.levels});
+                               {a.options, a.texels.given(), a.finer.high_poly.scene.has_value(),
+                                a.finer.refine.has_value(), a.levels});
     });
     if (a.texels.given() && a.levels != LevelMode::ignore && has_levels(document))
         print_notices(a.scene.string(), {"coarser levels of detail get no lightmap"});

@@ -133,9 +133,9 @@ SharedMeshes meshes_to_share(const InstanceArguments& arguments, const GltfDocum
         return {};
     }
     const bool must = arguments.mode == InstanceMode::shared;
-    if (asked.texels && must)
-        throw Error("--instances shared is for vertices: leave out --texels");
-    if (asked.texels || (asked.refined && !must))
+    if (must && (asked.texels || asked.high_poly))
+        throw Error("--instances shared is for vertices of the scene: leave out --texels and --high-poly");
+    if (asked.texels || asked.high_poly || (asked.refined && !must))
         return {};
     FoundMeshes found = find_shared_meshes(document, scene, asked.options, asked.levels);
     SharedMeshes& meshes = found.meshes;

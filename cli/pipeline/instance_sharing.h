@@ -31,8 +31,9 @@ struct InstanceArguments {
 
 struct AskedFor {
     const BakeOptions& options;
-    bool texels;  ///< the bake is for texels, which do not support shared transfer
-    bool refined; ///< meshes are refined: InstanceMode::automatic bakes all instances separately
+    bool texels;    ///< the bake is for texels, which do not support shared transfer
+    bool high_poly; ///< receivers are on a high-poly model, which has no parts for shared meshes
+    bool refined;   ///< meshes are refined: InstanceMode::automatic bakes all instances separately
     LevelMode levels = LevelMode::ignore;
 };
 

@@ -31,9 +31,9 @@ std::optional<BakedLevels> find_levels(LevelMode mode, const Path& path, const G
 }
 
 void bake_levels(BakedLevels& levels, const Transfer& finest, const BakeOptions& options,
-                 const Progress& progress) {
+                 const Progress& progress, const FinerModel& finer) {
     levels.bake = levels.mode == LevelMode::own
-                      ? prt::bake_levels(levels.scene, finest, options, progress)
+                      ? prt::bake_levels(levels.scene, finest, options, progress, finer)
                       : carry_levels(levels.scene, finest, {.seed = options.seed, .threads = options.threads},
                                      progress);
 }

@@ -29,8 +29,8 @@ struct BakedLevels {
 std::optional<BakedLevels> find_levels(LevelMode mode, const Path& path, const GltfDocument& document,
                                        int threads, const Notify& notify);
 
-/// Bakes or copies the transfer of `levels`, given that of level 0.
+/// Bakes or copies the transfer of `levels`, given that of level 0. `finer`: as for `bake`.
 void bake_levels(BakedLevels& levels, const Transfer& finest, const BakeOptions& options,
-                 const Progress& progress);
+                 const Progress& progress, const FinerModel& finer = {});
 
 } // namespace prt::pipeline

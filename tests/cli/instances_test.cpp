@@ -678,6 +678,7 @@ TEST_F(SharedInstances, UnsupportedMeshesAreRejected) {
     EXPECT_NE(one.err.find("no transfer can be shared"), std::string::npos) << one.err;
     EXPECT_EQ(bake("boxes.glb", "auto.glb", "auto").status, 0);
     boxes({0, 0, 0, 3, 0, 0}).write(folder / "two.glb");
+    EXPECT_EQ(bake("two.glb", "shared.glb", "shared", {"--high-poly", at("two.glb")}).status, 1);
     EXPECT_EQ(prt({"bake", at("two.glb"), "-o", at("shared.glb"), "--instances", "shared", "--texels", "4/m"})
                   .status,
               1);

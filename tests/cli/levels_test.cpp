@@ -18,9 +18,12 @@ namespace levels_of_files {
 class LevelsOfDetail : public Pipeline {
 protected:
     /// A ball with a dent, of some 2 000 triangles.
-    GlbFile ball() const {
+    GlbFile ball(bool under_a_roof = false) const {
         const auto dented = [](const glm::vec3& p) { return p.y > 0.5f ? glm::vec3(p.x, 1 - p.y, p.z) : p; };
-        GlbFile file = scene_file(SceneBuilder().sphere({0, 0, 0}, 1, 24).transform(dented).build());
+        SceneBuilder builder = SceneBuilder().sphere({0, 0, 0}, 1, 24).transform(dented);
+        if (under_a_roof)
+            builder.quad({-1, 2, -1}, {1, 2, -1}, {1, 2, 1}, {-1, 2, 1});
+        GlbFile file = scene_file(builder.build());
         file.json["nodes"][0]["name"] = "ball";
         return file;
     }
@@ -133,6 +136,14 @@ TEST_F(LevelsOfDetail, AreBakedOnRequest) {
     ASSERT_EQ(prt({"compress", at("none.glb"), "-o", at("shipped.glb")}).status, 0);
     EXPECT_EQ(prt({"evaluate", at("carry.glb"), at("shipped.glb")}).status, 0);
     EXPECT_EQ(bake("levels.glb", "fine.glb", {"--refine", "0.3"}).status, 0);
+    write(ball(true), "under_a_roof.glb");
+    const Outcome detailed =
+        bake("levels.glb", "detailed.glb",
+             {"--levels", "own", "--high-poly", at("under_a_roof.glb"), "--json", at("detailed.json")});
+    ASSERT_EQ(detailed.status, 0) << detailed.err;
+    EXPECT_LT(read_json(folder / "detailed.json")["levels"]["by_level"][0]["relative_l2"],
+              0.2); // is darker, too
+    EXPECT_NE(transfer_of("detailed.glb"), transfer_of("own.glb"));
     const Outcome texels = bake("levels.glb", "texels.glb", {"--texels", "4/m", "--texels", "unwrap"});
     EXPECT_EQ(texels.status, 0) << texels.err;
     EXPECT_NE(texels.err.find("get no lightmap"), std::string::npos) << texels.err;

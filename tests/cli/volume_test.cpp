@@ -71,10 +71,12 @@ TEST_F(Volumes, ReceiveTheLightOfTheHighPolyModel) {
     };
     const BakedVolume both = volume("scene.glb",
                                     {"--texels", "64", "--texels", "unwrap", "--high-poly", at("dark.glb")}),
+                      with_vertices = volume("scene.glb", {"--high-poly", at("dark.glb")}),
                       alone = volume("whole.glb", {}), bright = volume("scene.glb", {});
     EXPECT_EQ(both.grid, alone.grid);
     EXPECT_EQ(both.baked.transfer.layout, alone.baked.transfer.layout);
     EXPECT_EQ(both.baked.transfer.vectors, alone.baked.transfer.vectors);
+    EXPECT_EQ(with_vertices.baked.transfer.vectors, alone.baked.transfer.vectors);
     EXPECT_NE(both.baked.transfer.vectors, bright.baked.transfer.vectors);
 }
 

@@ -44,7 +44,7 @@ void copy_level(const ScenePart& part, const Transfer& from, std::size_t finest_
 } // namespace
 
 LevelBake bake_levels(const LeveledScene& scene, const Transfer& finest, const BakeOptions& options,
-                      const Progress& progress) {
+                      const Progress& progress, const FinerModel& finer) {
     const Stopwatch stopwatch;
     LevelBake result;
     result.transfer = zero_transfer(finest.layout, scene.scene.receivers());
@@ -54,7 +54,8 @@ LevelBake bake_levels(const LeveledScene& scene, const Transfer& finest, const B
         const ScenePart part = with_level(scene, number);
         const double begin = static_cast<double>(number - 1) / static_cast<double>(deepest),
                      end = static_cast<double>(number) / static_cast<double>(deepest);
-        const BakeResult bake = prt::bake(part.scene, options, progress.range(begin, end));
+        const BakeResult bake =
+            prt::bake(part.scene, options, progress.range(begin, end), MeasureErrors::no, finer);
         if (!same_layout(bake.baked.transfer.layout, finest.layout))
             throw Error("level of detail " + std::to_string(number) +
                         " needs transfer with other terms or colors than level 0 and cannot be baked "

@@ -29,6 +29,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <utility>
 
 namespace prt {
@@ -125,8 +126,10 @@ public:
         check_room(atlases_, plan.numbers(), options_.memory.limit);
         const std::unique_ptr<Tracer> tracer = make_tracer(traced, options_.tracer);
         statistics().notices = plan.notices;
-        const Casters casters{traced, finer_.reach};
-        const TexelPositions positions(scene_, finer_.scene ? &casters : nullptr);
+        std::optional<DetailedSurface> detail;
+        if (finer_.scene)
+            detail.emplace(traced, finer_.reach, scene_.origin);
+        const TexelPositions positions(scene_, detail ? &*detail : nullptr);
         choose_rays(*tracer, positions);
         const double share = plan.bounces != 0 || !plan.lamps.empty() ? 0.2 : 0;
         BounceSources sources = bounce_sources(plan, *tracer, progress.range(0, share));
@@ -290,7 +293,8 @@ private:
             for (const std::size_t p : atlases_[a].primitives)
                 map.layout.placements[p] = {a, atlases_[a].uv_set};
         }
-        if (std::optional<std::string> notice = positions.check_casters())
+        if (std::optional<std::string> notice =
+                positions.detail() ? positions.detail()->check() : std::nullopt)
             s.notices.push_back(std::move(*notice));
         s.mean_visibility = mean_visibility(light_.direct, map.areas);
         s.denoised = denoises(tracer);

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace prt {
 namespace {
@@ -60,13 +61,6 @@ OcclusionMap map_of(const Atlas& atlas, TexelLight light, const Scene& scene) {
 
 } // namespace
 
-void check_finer(const FinerModel& finer) {
-    if (finer.scene && !(finer.reach > 0 && finer.reach <= kFarthestVertex))
-        throw Error(
-            fmt::format("the distance of the high-poly model must be greater than 0 and at most {:g} m",
-                        kFarthestVertex));
-}
-
 OcclusionMapsStatistics occlusion_maps(const Scene& scene, const std::vector<Atlas>& atlases,
                                        const OcclusionOptions& options,
                                        const std::function<void(OcclusionMap)>& take, const FinerModel& finer,
@@ -75,8 +69,10 @@ OcclusionMapsStatistics occlusion_maps(const Scene& scene, const std::vector<Atl
     check_room(atlases, options.memory.limit);
     const Stopwatch watch;
     const OcclusionScene traced(finer.scene ? *finer.scene : scene, options);
-    const Casters casters{traced.scene(), finer.reach};
-    const TexelPositions positions(scene, finer.scene ? &casters : nullptr);
+    std::optional<DetailedSurface> detail;
+    if (finer.scene)
+        detail.emplace(traced.scene(), finer.reach, scene.origin);
+    const TexelPositions positions(scene, detail ? &*detail : nullptr);
     OcclusionMapsStatistics result;
     result.notices = traced.notices();
     for (std::size_t i = 0; i < atlases.size(); ++i) {
@@ -93,7 +89,7 @@ OcclusionMapsStatistics occlusion_maps(const Scene& scene, const std::vector<Atl
         result.rays += light.rays;
         take(map_of(atlases[i], std::move(light), scene));
     }
-    if (std::optional<std::string> notice = positions.check_casters())
+    if (std::optional<std::string> notice = detail ? detail->check() : std::nullopt)
         result.notices.push_back(std::move(*notice));
     result.device = traced.tracer().device();
     result.seconds = watch.seconds();

@@ -13,8 +13,7 @@
 namespace prt {
 
 TexelTransport::TexelTransport(const BakePlan& plan, BounceSources sources, std::size_t rows)
-    : plan_(plan),
-      gather_(plan.scene.surfaces(), *plan.transport, plan.bounces != 0 ? rows : 0, plan.channels),
+    : plan_(plan), gather_(plan.gather_rows(plan.bounces != 0 ? rows : 0)),
       sky_order_(sources.sky.layout.order) {
     const int threads = plan.options.threads;
     const auto reflected = [&](Transfer exit) {

@@ -27,8 +27,8 @@ AmbientVisibility ambient_visibility_of(const Transfer& transfer, std::span<cons
 }
 
 OcclusionResult ambient_occlusion(const Scene& scene, const OcclusionOptions& options,
-                                  const Progress& progress) {
-    BakeResult baked = bake(scene, bake_options(options), progress);
+                                  const Progress& progress, const FinerModel& finer) {
+    BakeResult baked = bake(scene, bake_options(options), progress, MeasureErrors::no, finer);
     return {ambient_visibility_of(baked.baked.transfer, vertex_receivers(scene).normals),
             std::move(baked.statistics)};
 }

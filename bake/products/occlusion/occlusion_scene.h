@@ -3,6 +3,7 @@
 // A scene for ambient occlusion.
 
 #include "bake/scene/trace_scene.h"
+#include "bake/trace/tracer.h"
 #include "prt/bake/ambient_occlusion.h"
 
 #include <memory>

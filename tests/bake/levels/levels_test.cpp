@@ -233,5 +233,39 @@ TEST(Levels, MatchASeparateBake) {
     EXPECT_LT(carried.levels[0].squares.relative_l2(), own.levels[0].squares.relative_l2());
 }
 
+/// Both levels are flat, and measured on a wavy model with the positions of their vertices.
+TEST(Levels, AreMeasuredOnAHighPolyModel) {
+    const auto floor = [](int cells) { return SceneBuilder().floor({0, 0, 0}, 1, cells).build(); };
+    const Scene fine = floor(8), coarse = floor(4),
+                detailed = SceneBuilder()
+                               .floor({0, 0, 0}, 1, 8)
+                               .transform([](const glm::vec3&p) {
+                                   return p + glm::vec3(0, 0.2f * std::cos(4 * p.x), 0);
+                               })
+                               .build();
+    const LeveledScene levels = leveled(fine, coarse);
+    BakeOptions options;
+    options.order = 3;
+    options.rays = 1024;
+    options.repairs.denoise = false;
+    const FinerModel finer{&detailed, 0.5};
+    const Transfer finest = bake(fine, options, {}, MeasureErrors::no, finer).baked.transfer,
+                   truth = bake(detailed, options).baked.transfer,
+                   own = bake_levels(levels, finest, options, {}, finer).transfer,
+                   carried = carry_levels(levels, finest).transfer;
+    std::size_t same = 0;
+    for (std::size_t v = 0; v < coarse.receivers(); ++v)
+        for (std::size_t d = 0; d < detailed.receivers(); ++d) {
+            const glm::vec3 &here = coarse.vertex_arrays[0].positions[v],
+                            &there = detailed.vertex_arrays[0].positions[d];
+            if (glm::distance(glm::vec2(here.x, here.z), glm::vec2(there.x, there.z)) > 1e-5f)
+                continue;
+            ++same;
+            EXPECT_NEAR(own.vector(fine.receivers() + v)[0], truth.vector(d)[0], 0.01f) << v;
+            EXPECT_NEAR(carried.vector(fine.receivers() + v)[0], truth.vector(d)[0], 0.06f) << v;
+        }
+    EXPECT_GE(same, coarse.receivers());
+}
+
 } // namespace levels_of_detail
 } // namespace prt

@@ -59,9 +59,10 @@ struct OcclusionResult {
 };
 
 /// Computes ambient visibility and bent normals at every vertex of `scene`, without bounces and lamps. A
-/// vertex that no light reaches gets its own normal as bent normal. Throws the errors of `bake`.
+/// vertex that no light reaches gets its own normal as bent normal. `finer`: as
+/// for `bake`. Throws the errors of `bake`.
 OcclusionResult ambient_occlusion(const Scene& scene, const OcclusionOptions& options,
-                                  const Progress& progress = {});
+                                  const Progress& progress = {}, const FinerModel& finer = {});
 
 /// Settings of `bake_occluder` and `floor_occlusion`.
 struct OccluderOptions {
@@ -140,17 +141,6 @@ struct OcclusionMapsStatistics {
     std::vector<std::string> notices; ///< parts of the scene that were ignored or repaired, with reasons, and
                                       ///< texels far from the finer model, one line each
 };
-
-/// An optional high-poly model of the same object that blocks and reflects light instead of the scene.
-struct FinerModel {
-    const Scene* scene = nullptr; ///< the model, which the caller keeps; null: the scene itself blocks light
-    double reach = 0;             ///< maximum distance in metres between the model's surface and the scene's
-                                  ///< surface, along the normal of the scene's surface; if `scene` is set,
-                                  ///< must be greater than 0 and at most kFarthestVertex
-};
-
-/// Throws `Error` if `finer` has a scene and its `reach` is not greater than 0 or exceeds kFarthestVertex.
-void check_finer(const FinerModel& finer);
 
 /// Computes the maps of `atlases` (from plan_atlases or from an unwrapping) and passes each to `take`, in the
 /// order of `atlases`, from the calling thread. The value of a texel is the mean over its part of the

@@ -136,7 +136,7 @@ struct BakeStatistics {
     /// series, divided by the largest norm of a baked transfer vector. 0 if no bounce was
     /// computed, 1 if the last bounce is not darker than the bounce before it. For kEndlessBounces without
     /// media: the estimated error of the sum over all bounces, relative to the largest coefficient. With
-    /// lamps: the larger of the values for the sky and for the lamps.
+    /// lamps: the larger of the values for the sky and for the lamps. 0 with a high-poly model.
     double remaining_energy = 0;
     Lamps lamps;
     Gather gather;
@@ -173,7 +173,10 @@ struct EndlessLampLight : Error {
 /// missing or damaged texture (BadTextures::error), for a lamp that is too bright for files, for a bake that
 /// does not fit into memory, and if the backend is not available. Throws `Error` if the GPU of Backend::gpu
 /// fails, `EndlessLampLight` if the light of lamps does not converge, and `Cancelled` after a stop request.
+/// If `finer` has a scene, light bounces between the vertices of that model, and the vertices of `scene`
+/// gather it; the media and thin sheets of `scene` scatter the light at its vertices. Throws `Error` if
+/// `finer` is invalid or has no surface near the vertices.
 BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& progress = {},
-                MeasureErrors errors = MeasureErrors::no);
+                MeasureErrors errors = MeasureErrors::no, const FinerModel& finer = {});
 
 } // namespace prt

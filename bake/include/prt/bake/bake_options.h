@@ -252,6 +252,19 @@ struct BakeOptions {
     std::uint64_t seed = 0;       ///< seed of the random directions of rays
 };
 
+/// An optional high-poly model of the same object. Its surfaces block, reflect and emit light instead of
+/// those of the scene, and its lights are baked. A receiver of the scene (a vertex, a texel, or a point
+/// between vertices) is measured on the outermost surface of the model that is within `reach` along the
+/// receiver's normal, on both sides, and faces the same way, with the normal there. Without such a surface,
+/// it is measured at its own position.
+struct FinerModel {
+    const Scene* scene = nullptr; ///< the model, which the caller keeps; null: the scene itself blocks light
+    double reach = 0;             ///< metres; if `scene` is set, greater than 0 and at most kFarthestVertex
+};
+
+/// Throws `Error` if `finer` has a scene and its `reach` is not greater than 0 or exceeds kFarthestVertex.
+void check_finer(const FinerModel& finer);
+
 /// Estimates the peak memory of a bake in bytes, from the order, the number of bounces and the presence of a
 /// target error in `options`. The estimate excludes the operator of the bounces, whose size is known only
 /// after some receivers are traced. `receivers`: number of receivers, including back sides; `triangles`:

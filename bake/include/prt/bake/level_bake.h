@@ -114,8 +114,9 @@ LevelBake carry_levels(const LeveledScene& scene, const Transfer& finest, const 
 /// Bakes each coarser level independently of level 0. For each level number there is one bake of a scene in
 /// which the levels with this number replace level 0; nodes without this level show level 0. `finest` is the
 /// transfer of the first receivers of the scene, [scene.finest_receivers]. Throws the errors of `bake` and
-/// `check_levels`, and `Error` if the layout of a baked level differs from the layout of `finest`.
+/// `check_levels`, and `Error` if the layout of a baked level differs from the layout of `finest`. `finer`:
+/// as for `bake`.
 LevelBake bake_levels(const LeveledScene& scene, const Transfer& finest, const BakeOptions& options,
-                      const Progress& progress = {});
+                      const Progress& progress = {}, const FinerModel& finer = {});
 
 } // namespace prt

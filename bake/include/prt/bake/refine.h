@@ -64,7 +64,8 @@ struct RefineResult {
 /// invalid, and if `options` have FitMode::vertex. Light is measured by rays, also for BakeMethod::raster,
 /// with BakeOptions::rays, also with a target error. Also throws the errors of `load_textures`, `make_tracer`
 /// and Tracer::trace, and `Cancelled` after a stop request.
+/// `finer`: as for `bake`.
 RefineResult refine(const Scene& scene, const BakeOptions& options, const RefineOptions& how,
-                    const Progress& progress = {});
+                    const Progress& progress = {}, const FinerModel& finer = {});
 
 } // namespace prt
