@@ -28,7 +28,10 @@ constexpr double kMajority = 0.5;
 
 bool can_separate(const Surfaces& surfaces, std::uint32_t t) {
     const Material& material = surfaces.material(t);
-    return material.double_sided && material.alpha_mode != AlphaMode::blend && material.glass.factor <= 0 &&
+    return !surfaces.scene()
+                .vertex_arrays[surfaces.scene().primitives[surfaces.primitive(t)].vertices]
+                .lobes &&
+           material.double_sided && material.alpha_mode != AlphaMode::blend && material.glass.factor <= 0 &&
            !surfaces.transmits(t) && !surfaces.solid(t);
 }
 

@@ -25,6 +25,7 @@
 #include "prt/bake/refine.h"
 #include "prt/core/error.h"
 #include "prt/gltf/transfer_gltf.h"
+#include "runtime/core/support/counted.h"
 #include "runtime/core/support/printable.h"
 
 #include <fmt/core.h>
@@ -34,6 +35,12 @@
 
 namespace prt::cli {
 namespace {
+
+/// Treatment of lobes of the scene file.
+enum class LobesOfFile { keep, remove };
+constexpr Choice<LobesOfFile> kLobesOfFile[] = {
+    {"keep", LobesOfFile::keep, "their vertices get no transfer, but block and reflect light in this pose"},
+    {"remove", LobesOfFile::remove, "their vertices get transfer, which does not move with the figure"}};
 
 struct BakeArguments {
     Path scene, output, json;
@@ -46,7 +53,10 @@ struct BakeArguments {
     TexelArguments texels;  ///< if given: baked in place of vertices
     VolumeArguments volume; ///< if given: baked in addition to surfaces
     InstanceArguments instances;
-    LevelMode levels = LevelMode::carry;
+    struct Kept {
+        LevelMode levels = LevelMode::carry;
+        LobesOfFile lobes = LobesOfFile::keep;
+    } kept; ///< treatment of data of the scene file
     BakeOptions options;
     ReadingOptions reading;
 };
@@ -290,7 +300,7 @@ SidesRequest sides_of(const BakeArguments& a) {
             .path = a.scene,
             .options = a.options,
             .no_shadow = a.no_shadow,
-            .levels = a.levels != LevelMode::ignore,
+            .levels = a.kept.levels != LevelMode::ignore,
             .notify = print_notices};
 }
 
@@ -319,7 +329,7 @@ std::vector<std::byte> with_volume(const BakeArguments& a, GltfDocument& documen
 /// Writes the transfer of the vertices of level 0, and of coarser levels if they have some.
 void write_vertices(const BakeArguments& a, GltfDocument& document, const Scene& scene,
                     const BakedTransfer& baked, std::optional<BakedLevels>& levels, Session& session) {
-    if (!levels || a.levels == LevelMode::ignore) {
+    if (!levels || a.kept.levels == LevelMode::ignore) {
         write_transfer(document, scene, baked);
         return;
     }
@@ -347,8 +357,9 @@ void note_lights(const BakeArguments& a, const Scene& scene, const Transfer& tra
 
 void run_vertices(const BakeArguments& a, GltfDocument& document, Scene& scene, Session& session) {
     about(a.scene, [&] { separate_sides(sides_of(a), document, scene); });
-    std::optional<BakedLevels> levels = about(
-        a.scene, [&] { return find_levels(a.levels, a.scene, document, a.options.threads, print_notices); });
+    std::optional<BakedLevels> levels = about(a.scene, [&] {
+        return find_levels(a.kept.levels, a.scene, document, a.options.threads, print_notices);
+    });
     const Baked baked = about(a.scene, [&] { return bake_scene(a, document, scene, session); });
     note_lights(a, scene, baked.result.baked.transfer, receiver_areas(scene));
     const std::optional<VolumeBake> volume = bake_probes(a, scene, session);
@@ -407,8 +418,9 @@ void run_instances(const BakeArguments& a, SharedMeshes meshes, GltfDocument& do
                    Session& session) {
     leave_out_shadows(scene, a.no_shadow);
     about(a.scene, [&] { separate_sides_of_meshes(sides_of(a), meshes, document, scene); });
-    std::optional<BakedLevels> levels = about(
-        a.scene, [&] { return find_levels(a.levels, a.scene, document, a.options.threads, print_notices); });
+    std::optional<BakedLevels> levels = about(a.scene, [&] {
+        return find_levels(a.kept.levels, a.scene, document, a.options.threads, print_notices);
+    });
     const FlatScene flat{document, scene, a.no_shadow};
     InstancedBake baked = about(a.scene, [&] {
         ProgressBar bar = session.progress_bar("baking");
@@ -423,7 +435,7 @@ void run_instances(const BakeArguments& a, SharedMeshes meshes, GltfDocument& do
     }
     const std::optional<VolumeBake> volume = bake_probes(a, scene, session);
     about(a.scene, [&] {
-        if (!levels || a.levels == LevelMode::ignore)
+        if (!levels || a.kept.levels == LevelMode::ignore)
             return write_shared(baked, flat, nullptr, a.options, {});
         ProgressBar bar = session.progress_bar("levels of detail");
         write_shared(baked, flat, &*levels, a.options, bar.progress());
@@ -461,6 +473,34 @@ void check_arguments(const BakeArguments& a) {
         throw CLI::ValidationError("--metres-per-unit", "needs --subsurface");
 }
 
+/// Reads the document, without its lobes if requested.
+GltfDocument load_document(const BakeArguments& a) {
+    GltfDocument document = load_gltf(a.scene, a.reading);
+    if (a.kept.lobes == LobesOfFile::remove)
+        discard_lobes(document);
+    return document;
+}
+
+/// Prints a notice about vertices with lobes, which get no transfer. Throws `Error` if all vertices have
+/// lobes, or if they would be split.
+void check_lobes_of(const BakeArguments& a, const Scene& scene) {
+    std::size_t count = 0;
+    for (const VertexArray& vertices : scene.vertex_arrays)
+        count += vertices.lobes ? vertices.size() : 0;
+    if (count == 0)
+        return;
+    if (count == scene.receivers())
+        throw Error(
+            a.scene.string() +
+            ": all vertices have lobes, so nothing needs transfer; --stored-lobes remove bakes transfer");
+    if (a.finer.refine)
+        throw Error(a.scene.string() +
+                    ": --refine does not support files with lobes; run prt lobes after prt bake --refine");
+    print_notices(a.scene.string(), {prt::counted(count, "vertex keeps its lobes and gets no transfer",
+                                                  "vertices keep their lobes and get no transfer") +
+                                     " (--stored-lobes remove bakes it)"});
+}
+
 void run(BakeArguments a, Session& session) {
     check_device(a.options.tracer);
     check_arguments(a);
@@ -469,10 +509,12 @@ void run(BakeArguments a, Session& session) {
     a.reading.outputs =
         check_outputs({{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}}, inputs);
     a.options.repairs.bad_textures = a.reading.bad_textures;
-    GltfDocument document = load_gltf(a.scene, a.reading);
+    a.texels.texels.leave_out_lobes = true;
+    GltfDocument document = load_document(a);
     Scene scene = extract_scene(document);
     read_occluders(document); // which it passes on
     print_notices(a.scene.string(), scene.notices);
+    check_lobes_of(a, scene);
     TexelRoom room;
     if (a.texels.given() && a.texels.unwrap)
         about(a.scene, [&] { separate_sides(sides_of(a), document, scene); });
@@ -480,9 +522,9 @@ void run(BakeArguments a, Session& session) {
         room = about(a.scene, [&] { return make_room(a.texels, a.scene, document, scene); });
     const SharedMeshes meshes = about(a.scene, [&] {
         return meshes_to_share(a.instances, document, scene,
-                               {a.options, a.texels.given() || a.finer.refine.has_value(), a.levels});
+                               {a.options, a.texels.given() || a.finer.refine.has_value(), a.kept.levels});
     });
-    if (a.texels.given() && a.levels != LevelMode::ignore && has_levels(document))
+    if (a.texels.given() && a.kept.levels != LevelMode::ignore && has_levels(document))
         print_notices(a.scene.string(), {"coarser levels of detail get no lightmap"});
     if (a.texels.given())
         run_texels(a, document, scene, room, session);
@@ -539,7 +581,9 @@ void add_bake(CLI::App& app, Session& session) {
         ->excludes(command->get_option("--fit")); // texels measure light at their centers
     add_volume(command, a.volume);
     add_instances(command, a.instances);
-    add_levels(command, a.levels);
+    add_levels(command, a.kept.levels);
+    choice(command, "--stored-lobes", a.kept.lobes, kLobesOfFile,
+           "lobes of prt lobes that the scene contains", "keep");
     choice(command, "--storage", a.options.memory.storage, kStorages,
            "number format of the coefficients in the file", "auto");
     add_seed(command, a.options.seed);
