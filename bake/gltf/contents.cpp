@@ -173,10 +173,6 @@ void erase_views(GltfContents& contents, const std::set<std::size_t>& views) {
     });
 }
 
-/// Extensions for transfer of surfaces beside kTransferExtension, at the top level and at primitives.
-constexpr const char* kSurfaceExtensions[] = {kLobeExtension, kFormerExtensions[0], kFormerExtensions[1],
-                                              kFormerExtensions[2]};
-
 /// Removes the extension `name` of `owner`, if it has one; calls `take` with its value first.
 template <class Take>
 void take_extension(Json& owner, const char* name, Take&& take) {
@@ -241,6 +237,39 @@ void collect_images(const Json& set, std::set<std::size_t>& images) {
                 if (image.is_number_unsigned())
                     images.insert(image.get<std::size_t>());
 }
+
+} // namespace
+
+/// Data of extensions that were removed, to free it if nothing else uses it.
+struct GltfContents::Removed {
+    std::set<std::size_t> views, accessors, images;
+
+    void take(Json& data) {
+        for_each_object(data, collect_views(views));
+        collect_images(data, images);
+    }
+    void take_attributes(Json& primitive, bool (*takes)(std::string_view)) {
+        Json kept = Json::object();
+        for (auto it = primitive["attributes"].begin(); it != primitive["attributes"].end(); ++it) {
+            if (takes(it.key()))
+                accessors.insert(it->get<std::size_t>());
+            else
+                kept[it.key()] = *it;
+        }
+        primitive["attributes"] = std::move(kept);
+    }
+    /// Takes everything except lobes.
+    void take_transfer(Json& primitive) {
+        take_extension(primitive, kTransferExtension, [&](Json& data) { take(data); });
+        for (const char* name : kFormerExtensions)
+            take_extension(primitive, name, [&](Json& data) { take(data); });
+        take_attributes(primitive, [](std::string_view name) {
+            return is_own_attribute(name) && !is_lobe_attribute(name);
+        });
+    }
+};
+
+namespace {
 
 /// Removes unused elements of `images`; adds their views to `views`.
 void remove_images(GltfContents& contents, std::set<std::size_t> images, std::set<std::size_t>& views) {
@@ -329,26 +358,16 @@ void GltfContents::remove_volume() {
 }
 
 void GltfContents::remove_transfer() {
-    std::set<std::size_t> views, accessors, of_words;
-    const auto take = [&](Json& data) {
-        for_each_object(data, collect_views(views));
-        collect_images(data, of_words);
-    };
+    Removed removed;
+    const auto take = [&](Json& data) { removed.take(data); };
     take_sets(json, false, take);
-    for (const char* name : kSurfaceExtensions)
+    for (const char* name : kFormerExtensions)
         take_extension(json, name, take);
+    const bool lobes = extension_of(json, kLobeExtension);
     for_each_primitive(json, [&](Json& primitive) {
-        take_extension(primitive, kTransferExtension, take);
-        for (const char* name : kSurfaceExtensions)
-            take_extension(primitive, name, take);
-        Json kept = Json::object();
-        for (auto it = primitive["attributes"].begin(); it != primitive["attributes"].end(); ++it) {
-            if (is_own_attribute(it.key()))
-                accessors.insert(it->get<std::size_t>());
-            else
-                kept[it.key()] = *it;
-        }
-        primitive["attributes"] = std::move(kept);
+        removed.take_transfer(primitive);
+        if (!lobes) // left by a program that does not copy the extension
+            removed.take_attributes(primitive, is_lobe_attribute);
     });
     if (separate.empty()) { // otherwise the written data belongs to it
         take_extension(json, kInstancesExtension, take);
@@ -357,10 +376,29 @@ void GltfContents::remove_transfer() {
                 take_extension(node, kInstancesExtension, take);
         drop_extension(json, kInstancesExtension);
     }
-    remove_images(*this, std::move(of_words), views);
-    remove_unused(std::move(accessors), std::move(views));
-    for (const char* name : kSurfaceExtensions)
+    finish(std::move(removed));
+    for (const char* name : kFormerExtensions)
         drop_extension(json, name);
+}
+
+void GltfContents::remove_transfer_of(std::span<Json* const> primitives) {
+    Removed removed;
+    for (Json* primitive : primitives)
+        removed.take_transfer(*primitive);
+    finish(std::move(removed));
+}
+
+void GltfContents::remove_lobes() {
+    Removed removed;
+    take_extension(json, kLobeExtension, [&](Json& data) { removed.take(data); });
+    for_each_primitive(json, [&](Json& primitive) { removed.take_attributes(primitive, is_lobe_attribute); });
+    finish(std::move(removed));
+    drop_extension(json, kLobeExtension);
+}
+
+void GltfContents::finish(Removed removed) {
+    remove_images(*this, std::move(removed.images), removed.views);
+    remove_unused(std::move(removed.accessors), std::move(removed.views));
     drop_unused_extensions();
 }
 

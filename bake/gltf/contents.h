@@ -37,14 +37,21 @@ struct GltfContents : GltfData {
     void use_extension(const std::string& name);
     /// Removes bytes from the buffer that no view references.
     void cut_unused_bytes();
-    /// Removes the surface extensions of prtkit, with their attributes, accessors and data.
+    /// Removes transfer of surfaces and shared instances, with their attributes, accessors and data. Keeps
+    /// lobes.
     void remove_transfer();
+    /// Removes the transfer of `primitives`.
+    void remove_transfer_of(std::span<Json* const> primitives);
+    /// Removes all lobes with their data.
+    void remove_lobes();
     /// Removes the volume of prtkit with its data.
     void remove_volume();
     /// Removes unreferenced elements of `accessors` and `views`, with their data, and updates `model`.
     void remove_unused(std::set<std::size_t> accessors, std::set<std::size_t> views = {});
 
 private:
+    struct Removed;
+    void finish(Removed removed);
     void drop_unused_extensions();
 };
 

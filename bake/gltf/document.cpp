@@ -355,6 +355,7 @@ GltfDocument parse_gltf(std::span<const std::byte> whole_file, const std::filesy
     auto contents = std::make_unique<GltfContents>();
     contents->path = path;
     contents->scene_limit = options.scene_limit;
+    contents->leave_out_lobes = options.leave_out_lobes;
     contents->limit_remedy = "; raise it with --memory-limit";
     try {
         const std::span<const std::byte> file = without_tile(whole_file, contents->notices);
@@ -410,6 +411,10 @@ void save_glb(const GltfDocument& document, const std::filesystem::path& path,
 
 void discard_transfer(GltfDocument& document) {
     document.contents().remove_transfer();
+}
+
+void discard_lobes(GltfDocument& document) {
+    document.contents().remove_lobes();
 }
 
 } // namespace prt

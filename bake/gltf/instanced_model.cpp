@@ -10,9 +10,11 @@ namespace prt {
 
 InstancedModel read_instanced(const GltfDocument& document, const Scene& scene,
                               const std::filesystem::path& path) {
-    const GltfDocument separate =
-        parse_gltf(encode_glb(document), path,
-                   {.instancing = Instancing::separate, .scene_limit = document.contents().scene_limit});
+    const GltfContents& contents = document.contents();
+    const GltfDocument separate = parse_gltf(encode_glb(document), path,
+                                             {.instancing = Instancing::separate,
+                                              .leave_out_lobes = contents.leave_out_lobes,
+                                              .scene_limit = contents.scene_limit});
     InstancedModel model;
     model.stored = extract_scene(separate);
     model.baked = read_transfer(separate, model.stored);

@@ -45,7 +45,8 @@ bool has_transfer(const Json& primitive) {
     if (extension_of(primitive, kTransferExtension))
         return true;
     return std::ranges::any_of(primitive["attributes"].items(), [](const auto& attribute) {
-        return is_own_attribute(attribute.key()) && attribute.key() != kOtherColors;
+        return is_own_attribute(attribute.key()) && !is_lobe_attribute(attribute.key()) &&
+               attribute.key() != kOtherColors;
     });
 }
 

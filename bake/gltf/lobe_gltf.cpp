@@ -34,17 +34,36 @@ Json profiles_json(GltfContents& contents, const LobeModel& model) {
     return json;
 }
 
+/// Prepares the meshes for lobes and removes the transfer of vertices that get lobes. Returns the JSON of
+/// each primitive of `scene`.
+std::vector<Json*> primitives_for_lobes(GltfContents& contents, const Scene& scene) {
+    std::vector<Json*> primitives = make_meshes_unique(contents, scene, ChangedMeshes::with_lobes), figure;
+    for (std::size_t i = 0; i < primitives.size(); ++i) {
+        if (!scene.vertex_arrays[scene.primitives[i].vertices].lobes)
+            continue;
+        figure.push_back(primitives[i]);
+        Json& node = contents.json["nodes"][static_cast<std::size_t>(scene.primitives[i].node)];
+        if (extension_of(node, kInstancesExtension))
+            erase_extension(node, kInstancesExtension);
+    }
+    if (figure.size() == primitives.size())
+        contents.remove_transfer();
+    else
+        contents.remove_transfer_of(figure);
+    return primitives;
+}
+
 } // namespace
 
 void write_lobes(GltfDocument& document, const Scene& scene, const StoredLobes& lobes) {
     check_lobes(lobes.model);
     named(document, [&](GltfContents& contents) {
-        const std::vector<Json*> primitives = make_meshes_unique(contents, scene);
-        contents.remove_transfer();
+        contents.remove_lobes();
+        const std::vector<Json*> primitives = primitives_for_lobes(contents, scene);
         std::vector<Json> attributes;
         for (const VertexArray& vertices : scene.vertex_arrays) {
             Json& added = attributes.emplace_back(Json::object());
-            for (std::size_t k = 0; k < lobes.model.lobes; ++k)
+            for (std::size_t k = 0; vertices.lobes && k < lobes.model.lobes; ++k)
                 added[lobe_name(k)] = write_lobe_words(contents, lobes.model, vertices, k);
         }
         for (std::size_t i = 0; i < primitives.size(); ++i)
@@ -60,6 +79,10 @@ void write_lobes(GltfDocument& document, const Scene& scene, const StoredLobes& 
                                                           {"seed", lobes.record.seed}}}};
         contents.use_extension(kLobeExtension);
     });
+}
+
+bool has_lobes(const GltfDocument& document) {
+    return extension_of(document.contents().json, kLobeExtension) != nullptr;
 }
 
 std::optional<StoredLobes> read_lobes(const GltfDocument& document, const Scene& scene) {

@@ -17,11 +17,21 @@
 namespace prt {
 namespace {
 
-/// Copies meshes that more than one node uses; returns the new mesh index of each node.
-std::map<int, std::size_t> copy_shared_meshes(GltfContents& contents, const Scene& scene) {
+bool is_changed(const Scene& scene, const Primitive& primitive, ChangedMeshes changed) {
+    return changed == ChangedMeshes::all || scene.vertex_arrays[primitive.vertices].lobes;
+}
+
+/// Copies meshes of `changed` nodes that more than one node uses; returns the new mesh index of each node.
+std::map<int, std::size_t> copy_shared_meshes(GltfContents& contents, const Scene& scene,
+                                              ChangedMeshes changed) {
     Json& json = contents.json;
     std::map<int, std::size_t> mesh_of_node;
     std::map<int, double> taken; // meshes that have a node, and the bytes of a copy
+    for (const Primitive& primitive : scene.primitives)
+        if (!is_changed(scene, primitive, changed)) {
+            taken.try_emplace(primitive.mesh, 0.0);
+            mesh_of_node[primitive.node] = static_cast<std::size_t>(primitive.mesh);
+        }
     double bytes = 0;
     for (const Primitive& primitive : scene.primitives) {
         if (mesh_of_node.contains(primitive.node))
@@ -100,13 +110,14 @@ void replace_vertices(GltfContents& contents, Json& primitive, const std::vector
     primitive.erase("mode");
 }
 
-std::vector<Json*> make_meshes_unique(GltfContents& contents, const Scene& scene) {
-    const std::map<int, std::size_t> mesh_of_node = copy_shared_meshes(contents, scene);
+std::vector<Json*> make_meshes_unique(GltfContents& contents, const Scene& scene, ChangedMeshes changed) {
+    const std::map<int, std::size_t> mesh_of_node = copy_shared_meshes(contents, scene, changed);
     std::vector<Json*> result;
     for (const Primitive& primitive : scene.primitives) {
         Json& json = contents.json["meshes"][mesh_of_node.at(primitive.node)]["primitives"]
                                   [static_cast<std::size_t>(primitive.primitive)];
-        if (const auto& source = scene.vertex_arrays[primitive.vertices].source; !source.empty())
+        if (const auto& source = scene.vertex_arrays[primitive.vertices].source;
+            !source.empty() && is_changed(scene, primitive, changed))
             replace_vertices(contents, json, source,
                              flat_normals(contents, json["attributes"]["POSITION"], scene, primitive),
                              in_file_order(primitive));

@@ -7,10 +7,14 @@
 
 namespace prt {
 
-/// Changes the file so that each of its vertices is one vertex of the scene, and data per receiver can be
-/// attached: meshes that several nodes share are copied per node, and primitives whose vertices were split
-/// for flat normals are rewritten as triangles. Returns the JSON of each scene primitive in `contents`.
-std::vector<Json*> make_meshes_unique(GltfContents& contents, const Scene& scene);
+/// Nodes whose meshes are changed: all, or only those with lobes (VertexArray::lobes).
+enum class ChangedMeshes { all, with_lobes };
+
+/// Changes the file so that each vertex of `changed` nodes is one vertex of the scene, and data per receiver
+/// can be attached: meshes that several nodes share are copied per node, and primitives whose vertices were
+/// split for flat normals are rewritten as triangles. Returns the JSON of each scene primitive in `contents`.
+std::vector<Json*> make_meshes_unique(GltfContents& contents, const Scene& scene,
+                                      ChangedMeshes changed = ChangedMeshes::all);
 
 /// Rewrites a primitive: vertex i is a copy of vertex source[i] with normals[i], in all attributes and morph
 /// targets except tangents and changes of normals.

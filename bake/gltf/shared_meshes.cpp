@@ -51,7 +51,8 @@ SharedMeshes shared_meshes(const GltfDocument& document, const Scene& scene) {
         here.mesh.mesh = primitive.mesh;
         ++here.nodes;
         const glm::dmat4& matrix = world.at(primitive.node);
-        if (is_bent(model, model.nodes[static_cast<std::size_t>(primitive.node)]))
+        if (scene.vertex_arrays[primitive.vertices].lobes ||
+            is_bent(model, model.nodes[static_cast<std::size_t>(primitive.node)]))
             ++here.bent;
         else if (const std::optional<EvenPlacement> placement = even_placement(matrix))
             here.mesh.placements.push_back({primitive.node, placement->rotation, placement->scale});

@@ -19,8 +19,9 @@ Json write_maps(GltfContents& contents, const Scene& scene, const LightmapLayout
     const std::vector<Json*> primitives = make_meshes_unique(contents, scene);
     contents.remove_transfer();
     for (std::size_t p = 0; p < primitives.size(); ++p)
-        extensions_of(*primitives[p])[kTransferExtension] = {{"map", layout.placements[p].map},
-                                                             {"texCoord", layout.placements[p].texcoord}};
+        if (layout.placements[p].map != kNoMap)
+            extensions_of(*primitives[p])[kTransferExtension] = {{"map", layout.placements[p].map},
+                                                                 {"texCoord", layout.placements[p].texcoord}};
     Json maps = Json::array();
     for (const LightmapSize& map : layout.maps)
         maps.push_back({{"width", map.width}, {"height", map.height}, {"repeats", map.repeats}});

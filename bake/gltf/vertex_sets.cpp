@@ -77,6 +77,8 @@ std::vector<VectorsView> views_of(const GltfContents& contents, const Scene& sce
     TransferOfVertices read;
     for (const Primitive& primitive : scene.primitives) {
         const VertexArray& vertices = scene.vertex_arrays[primitive.vertices];
+        if (vertices.lobes)
+            continue;
         const Json* of_primitive = extension_of(primitive_json(contents, primitive), kTransferExtension);
         if (!of_primitive)
             throw Error(primitive_name(primitive) + " has no " + kTransferExtension);
@@ -114,14 +116,16 @@ void write_transfer(GltfDocument& document, const Scene& scene, const BakedTrans
         const Transfer& transfer = baked.transfer;
         std::vector<Json> views;
         for (const VertexArray& vertices : scene.vertex_arrays)
-            views.push_back(write_vectors(contents,
-                                          std::span(transfer.vectors)
-                                              .subspan(vertices.first_receiver * transfer.dimension(),
-                                                       vertices.size() * transfer.dimension()),
-                                          baked.storage));
+            views.push_back(vertices.lobes
+                                ? Json()
+                                : write_vectors(contents,
+                                                std::span(transfer.vectors)
+                                                    .subspan(vertices.first_receiver * transfer.dimension(),
+                                                             vertices.size() * transfer.dimension()),
+                                                baked.storage));
         for (std::size_t i = 0; i < primitives.size(); ++i)
-            extensions_of(*primitives[i])[kTransferExtension] = {
-                {"vectors", views[scene.primitives[i].vertices]}};
+            if (const Json& view = views[scene.primitives[i].vertices]; !view.is_null())
+                extensions_of(*primitives[i])[kTransferExtension] = {{"vectors", view}};
         add_set(contents, raw_set(ReceiverKind::vertices, baked));
     });
 }
@@ -132,7 +136,8 @@ void write_clustered(GltfDocument& document, const Scene& scene, const Compresse
         contents.remove_transfer();
         std::vector<Json> attributes;
         for (const VertexArray& vertices : scene.vertex_arrays)
-            attributes.push_back(write_attributes(contents, compressed.transfer, vertices));
+            attributes.push_back(vertices.lobes ? Json::object()
+                                                : write_attributes(contents, compressed.transfer, vertices));
         for (std::size_t i = 0; i < primitives.size(); ++i)
             (*primitives[i])["attributes"].update(attributes[scene.primitives[i].vertices]);
         add_set(contents, write_clustered_set(contents, scene, ReceiverKind::vertices, compressed));

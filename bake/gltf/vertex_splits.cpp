@@ -71,6 +71,8 @@ GltfDocument with_texcoords(GltfDocument document, const Scene& scene, std::span
     named(document, [&](GltfContents& contents) {
         SplitWriter writer(contents);
         for (std::size_t p = 0; p < scene.primitives.size(); ++p) {
+            if (splits[p].source.empty())
+                continue; // has no texels
             const Primitive& primitive = scene.primitives[p];
             const auto mesh = contents.json["nodes"][static_cast<std::size_t>(primitive.node)]["mesh"];
             writer.write(contents.json["meshes"][mesh.get<std::size_t>()]["primitives"]

@@ -52,9 +52,10 @@ public:
 
 private:
     glm::vec3 exit_radiance_at(const SeenSurface& surface) const {
-        return lightmaps_ ? lightmaps_->look_up(surface.triangle, surface.barycentrics,
-                                                picture_.in_shader.lightmaps.radiance)
-                          : at_corners(picture_, surface);
+        return lightmaps_ && lightmaps_->has_texels(surface.triangle)
+                   ? lightmaps_->look_up(surface.triangle, surface.barycentrics,
+                                         picture_.in_shader.lightmaps.radiance)
+                   : at_corners(picture_, surface);
     }
 
     int samples() const { return picture_.samples * picture_.samples; }

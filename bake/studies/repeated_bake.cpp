@@ -89,16 +89,8 @@ Transfer repeated_lightmap(const Scene& scene, const BakedLightmap& lightmap, in
     const BakedTransfer& baked = lightmap.baked;
     BakeOptions options = options_of_repetition(baked.record, baked.transfer.layout.order, threads);
     options.fit = FitMode::automatic; // applies to vertices that light bounces between
-    std::vector<Atlas> atlases;
-    for (const LightmapSize& map : lightmap.layout.maps)
-        atlases.push_back(
-            {.primitives = {}, .width = map.width, .height = map.height, .repeats = map.repeats});
-    for (std::size_t p = 0; p < scene.primitives.size(); ++p) {
-        Atlas& atlas = atlases[lightmap.layout.placements[p].map];
-        atlas.primitives.push_back(p);
-        atlas.uv_set = lightmap.layout.placements[p].texcoord;
-    }
-    Transfer repeated = bake_lightmap(scene, atlases, options, {}, progress).lightmap.baked.transfer;
+    Transfer repeated =
+        bake_lightmap(scene, atlases_of(lightmap.layout), options, {}, progress).lightmap.baked.transfer;
     check_repeats(baked.transfer, repeated, lightmap.areas, baked.record);
     return repeated;
 }

@@ -114,7 +114,7 @@ const std::vector<HelpGroup>& help_groups() {
         {"Occlusion", {"falloff", "max-distance", "bent-normals", "occluders"}, {"attribute"}},
         {"Lightmap and detailed model", {"texels", "high-poly"}, {}},
         {"Volume", {"volume"}, {}},
-        {"Instances and levels of detail", {"instances", "levels"}, {}},
+        {"Instances and levels of detail", {"instances", "levels"}, {"stored-lobes"}},
         {"File", {"combine-direct", "fallback", "reorder", "meshopt"}, {}},
         {"Reading", {}, {"smooth-normals", "bad-textures", "allow-outside", "memory-limit"}},
         {"Program", {"device", "threads", "help", "help-all", "version"}, {}},

@@ -25,6 +25,7 @@
 #include "prt/bake/refine.h"
 #include "prt/core/error.h"
 #include "prt/gltf/transfer_gltf.h"
+#include "runtime/core/support/counted.h"
 #include "runtime/core/support/printable.h"
 
 #include <fmt/core.h>
@@ -34,6 +35,12 @@
 
 namespace prt::cli {
 namespace {
+
+/// Treatment of lobes of the scene file.
+enum class LobesOfFile { keep, remove };
+constexpr Choice<LobesOfFile> kLobesOfFile[] = {
+    {"keep", LobesOfFile::keep, "their vertices get no transfer, but block and reflect light in this pose"},
+    {"remove", LobesOfFile::remove, "their vertices get transfer, which does not move with the figure"}};
 
 struct BakeArguments {
     Path scene, output, json;
@@ -47,7 +54,10 @@ struct BakeArguments {
     TexelArguments texels;  ///< if given: baked in place of vertices
     VolumeArguments volume; ///< if given: baked in addition to surfaces
     InstanceArguments instances;
-    LevelMode levels = LevelMode::carry;
+    struct Kept {
+        LevelMode levels = LevelMode::carry;
+        LobesOfFile lobes = LobesOfFile::keep;
+    } kept; ///< treatment of data of the scene file
     BakeOptions options;
     ReadingOptions reading;
 };
@@ -255,8 +265,8 @@ void add_refinement(CLI::App* command, BakeArguments& a) {
         .add(command);
 }
 
-/// Replaces document and scene by the refined ones, in which instances of `meshes` are unchanged. Returns
-/// nothing if refinement is off.
+/// Replaces document and scene by the refined ones, in which instances of `meshes` and nodes with lobes are
+/// unchanged. Returns nothing if refinement is off.
 std::optional<RefineStatistics> refine(const BakeArguments& a, GltfDocument& document, Scene& scene,
                                        SharedMeshes& meshes, Session& session) {
     if (!a.finer.refine)
@@ -265,6 +275,9 @@ std::optional<RefineStatistics> refine(const BakeArguments& a, GltfDocument& doc
     for (const SharedMesh& mesh : meshes.meshes)
         for (const MeshPlacement& placement : mesh.placements)
             how.kept_nodes.push_back(placement.node);
+    for (const Primitive& primitive : scene.primitives)
+        if (scene.vertex_arrays[primitive.vertices].lobes)
+            how.kept_nodes.push_back(primitive.node);
     ProgressBar bar = session.progress_bar("refining");
     const RefineResult result = prt::refine(scene, a.options, how, bar.progress(), a.finer.high_poly.model());
     if (result.statistics.rounds == 0)
@@ -276,7 +289,7 @@ std::optional<RefineStatistics> refine(const BakeArguments& a, GltfDocument& doc
     finer.notices = std::move(scene.notices); // notices of the input file
     scene = std::move(finer);
     if (!meshes.meshes.empty())
-        meshes = find_shared_meshes(document, scene, a.options, a.levels).meshes;
+        meshes = find_shared_meshes(document, scene, a.options, a.kept.levels).meshes;
     return result.statistics;
 }
 
@@ -301,7 +314,7 @@ SidesRequest sides_of(const BakeArguments& a) {
             .path = a.scene,
             .options = a.options,
             .no_shadow = a.no_shadow,
-            .levels = a.levels != LevelMode::ignore,
+            .levels = a.kept.levels != LevelMode::ignore,
             .notify = print_notices};
 }
 
@@ -335,7 +348,7 @@ std::vector<std::byte> with_volume(const BakeArguments& a, GltfDocument& documen
 /// Writes the transfer of the vertices of level 0, and of coarser levels if they have some.
 void write_vertices(const BakeArguments& a, GltfDocument& document, const Scene& scene,
                     const BakedTransfer& baked, std::optional<BakedLevels>& levels, Session& session) {
-    if (!levels || a.levels == LevelMode::ignore) {
+    if (!levels || a.kept.levels == LevelMode::ignore) {
         write_transfer(document, scene, baked);
         return;
     }
@@ -360,8 +373,9 @@ void note_lights(const BakeArguments& a, const Scene& scene, const Transfer& tra
 
 void run_vertices(const BakeArguments& a, GltfDocument& document, Scene& scene, Session& session) {
     about(a.scene, [&] { separate_sides(sides_of(a), document, scene); });
-    std::optional<BakedLevels> levels = about(
-        a.scene, [&] { return find_levels(a.levels, a.scene, document, a.options.threads, print_notices); });
+    std::optional<BakedLevels> levels = about(a.scene, [&] {
+        return find_levels(a.kept.levels, a.scene, document, a.options.threads, print_notices);
+    });
     const Baked baked = about(a.scene, [&] { return bake_scene(a, document, scene, session); });
     note_lights(a, scene, baked.result.baked.transfer, receiver_areas(scene));
     const Scene& lit = lit_scene(a, scene);
@@ -420,8 +434,9 @@ void run_instances(const BakeArguments& a, SharedMeshes meshes, GltfDocument& do
     about(a.scene, [&] { separate_sides_of_meshes(sides_of(a), meshes, document, scene); });
     const std::optional<RefineStatistics> refinement =
         about(a.scene, [&] { return refine(a, document, scene, meshes, session); });
-    std::optional<BakedLevels> levels = about(
-        a.scene, [&] { return find_levels(a.levels, a.scene, document, a.options.threads, print_notices); });
+    std::optional<BakedLevels> levels = about(a.scene, [&] {
+        return find_levels(a.kept.levels, a.scene, document, a.options.threads, print_notices);
+    });
     const FlatScene flat{document, scene, a.no_shadow};
     InstancedBake baked = about(a.scene, [&] {
         ProgressBar bar = session.progress_bar("baking");
@@ -436,7 +451,7 @@ void run_instances(const BakeArguments& a, SharedMeshes meshes, GltfDocument& do
     }
     const std::optional<VolumeBake> volume = bake_probes(a, scene, session);
     about(a.scene, [&] {
-        if (!levels || a.levels == LevelMode::ignore)
+        if (!levels || a.kept.levels == LevelMode::ignore)
             return write_shared(baked, flat, nullptr, a.options, {});
         ProgressBar bar = session.progress_bar("levels of detail");
         write_shared(baked, flat, &*levels, a.options, bar.progress());
@@ -476,6 +491,31 @@ void check_arguments(const BakeArguments& a) {
         throw CLI::ValidationError("--metres-per-unit", "needs --subsurface");
 }
 
+/// Reads the document, without its lobes if requested.
+GltfDocument load_document(const BakeArguments& a) {
+    GltfDocument document = load_gltf(a.scene, a.reading);
+    if (a.kept.lobes == LobesOfFile::remove)
+        discard_lobes(document);
+    return document;
+}
+
+/// Prints a notice about vertices with lobes, which get no transfer. Throws `Error` if all vertices have
+/// lobes.
+void check_lobes_of(const BakeArguments& a, const Scene& scene) {
+    std::size_t count = 0;
+    for (const VertexArray& vertices : scene.vertex_arrays)
+        count += vertices.lobes ? vertices.size() : 0;
+    if (count == 0)
+        return;
+    if (count == scene.receivers())
+        throw Error(
+            a.scene.string() +
+            ": all vertices have lobes, so nothing needs transfer; --stored-lobes remove bakes transfer");
+    print_notices(a.scene.string(), {prt::counted(count, "vertex keeps its lobes and gets no transfer",
+                                                  "vertices keep their lobes and get no transfer") +
+                                     " (--stored-lobes remove bakes it)"});
+}
+
 void run(BakeArguments a, Session& session) {
     check_device(a.options.tracer);
     check_arguments(a);
@@ -486,10 +526,12 @@ void run(BakeArguments a, Session& session) {
     a.options.repairs.bad_textures = a.reading.bad_textures;
     if (a.finer.refine && a.options.fit == FitMode::automatic)
         a.options.fit = FitMode::surface; // the fit with which the refinement measures errors
-    GltfDocument document = load_gltf(a.scene, a.reading);
+    a.texels.texels.leave_out_lobes = true;
+    GltfDocument document = load_document(a);
     Scene scene = extract_scene(document);
     read_occluders(document); // which it passes on
     print_notices(a.scene.string(), scene.notices);
+    check_lobes_of(a, scene);
     a.finer.high_poly = load_high_poly(a.texels, a.reading, scene);
     if (a.finer.high_poly.scene && a.options.lamps.mode != LampMode::none)
         note_missing_lamps(a, scene, *a.finer.high_poly.scene);
@@ -501,9 +543,9 @@ void run(BakeArguments a, Session& session) {
     const SharedMeshes meshes = about(a.scene, [&] {
         return meshes_to_share(a.instances, document, scene,
                                {a.options, a.texels.given(), a.finer.high_poly.scene.has_value(),
-                                a.finer.refine.has_value(), a.levels});
+                                a.finer.refine.has_value(), a.kept.levels});
     });
-    if (a.texels.given() && a.levels != LevelMode::ignore && has_levels(document))
+    if (a.texels.given() && a.kept.levels != LevelMode::ignore && has_levels(document))
         print_notices(a.scene.string(), {"coarser levels of detail get no lightmap"});
     if (a.texels.given())
         run_texels(a, document, scene, room, session);
@@ -560,7 +602,9 @@ void add_bake(CLI::App& app, Session& session) {
         ->excludes(command->get_option("--fit")); // texels measure light at their centers
     add_volume(command, a.volume);
     add_instances(command, a.instances);
-    add_levels(command, a.levels);
+    add_levels(command, a.kept.levels);
+    choice(command, "--stored-lobes", a.kept.lobes, kLobesOfFile,
+           "lobes of prt lobes that the scene contains", "keep");
     choice(command, "--storage", a.options.memory.storage, kStorages,
            "number format of the coefficients in the file", "auto");
     add_seed(command, a.options.seed);

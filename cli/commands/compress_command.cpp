@@ -147,7 +147,8 @@ std::vector<FileInstance> instances_of(const Path& path, const GltfOptions& read
     return read_instances(document, extract_scene(document), stored);
 }
 
-Bake load_bake(const Path& path, const GltfOptions& reading) {
+Bake load_bake(const Path& path, GltfOptions reading) {
+    reading.leave_out_lobes = true; // they are compressed already
     GltfOptions options = reading;
     options.instancing = Instancing::separate; // each mesh once, as its transfer is stored
     GltfDocument document = load_gltf(path, options);
@@ -312,7 +313,9 @@ Written written(const CompressArguments& a, std::vector<std::byte> file, const B
     const std::optional<BakedLightmap>& lightmap = bake.lightmap;
     GltfDocument document = readable(a, [&] {
         return parse_gltf(file, a.output,
-                          {.instancing = Instancing::separate, .scene_limit = a.reading.scene_limit});
+                          {.instancing = Instancing::separate,
+                           .leave_out_lobes = true,
+                           .scene_limit = a.reading.scene_limit});
     });
     const std::uintmax_t bytes = session.write(a.output, file);
     file = {};

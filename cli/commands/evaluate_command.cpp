@@ -133,10 +133,15 @@ BudgetRequest budget_request(const EvaluateArguments& a) {
 
 void run(EvaluateArguments a, Session& session) {
     a.reading.outputs = check(a);
+    a.reading.leave_out_lobes = true; // prt lobes measures them
     SceneFile baked = load_scene_file(a.baked, a.reading);
     if (!baked.baked)
         throw Error(a.baked.string() +
                     ": contains no raw transfer; the first file must be the output of prt bake");
+    if (has_lobes(baked.document) &&
+        (a.measures.contains(Measure::budget) || a.measures.contains(Measure::volume)))
+        throw Error(a.baked.string() + ": --measure budget and volume do not support files with lobes: they "
+                                       "repeat the bake without the vertices that have lobes");
     const std::vector<LoadedLight> lights = lights_of(a, baked.baked->transfer.layout.order);
     Report report = empty_report(a, session);
     if (!a.shipped.empty())

@@ -94,7 +94,20 @@ void add_predictors(const ClusteredBases& bases, const std::string& own, Report&
                                            fmt::join(predictor_names(bases), " and "), own));
 }
 
-void add_compressed(const CompressedTransfer& compressed, Report& report) {
+/// Returns the number of vertices of `scene` that have lobes.
+std::size_t vertices_with_lobes(const Scene& scene) {
+    std::size_t count = 0;
+    for (const VertexArray& vertices : scene.vertex_arrays)
+        count += vertices.lobes ? vertices.size() : 0;
+    return count;
+}
+
+std::size_t vertices_without_lobes(const Scene& scene) {
+    return scene.receivers() - vertices_with_lobes(scene);
+}
+
+/// Adds compressed transfer of `receivers` receivers.
+void add_compressed(const CompressedTransfer& compressed, std::size_t receivers, Report& report) {
     const ClusteredTransfer& t = compressed.transfer;
     const auto [least, most] = std::minmax_element(t.bases.components.begin(), t.bases.components.end());
     add_figures(report, {{"clustered_pca",
@@ -110,7 +123,7 @@ void add_compressed(const CompressedTransfer& compressed, Report& report) {
                            {"predictors", predictor_names(t.bases)},
                            {"predictor_rows", t.bases.predictor_rows()},
                            {"bytes_bases", basis_bytes(t.bases)},
-                           {"bytes_attributes", t.receivers.size() * bytes_per_receiver(t)},
+                           {"bytes_attributes", receivers * bytes_per_receiver(t)},
                            {"bytes_constants", constant_rows(t.bases) * sizeof(glm::vec4)},
                            {"bytes_ram", ClusterLighting(t).matrix().size_bytes()},
                            {"bake", bake_record_json(compressed.record)}}}});
@@ -159,10 +172,11 @@ void add_volume(const VolumeGrid& grid, std::size_t probes, int order, Report& r
     report.sentences.push_back(grid_sentence("volume"));
 }
 
-void add_stored_lobes(const StoredLobes& lobes, Report& report) {
+void add_stored_lobes(const StoredLobes& lobes, std::size_t vertices, Report& report) {
     const LobeModel& model = lobes.model;
     add_figures(report, {{"lobes",
-                          {{"order", model.order},
+                          {{"vertices", vertices},
+                           {"order", model.order},
                            {"lobes_per_vertex", model.lobes},
                            {"bytes_bound_per_vertex", model.lobes * sizeof(LobeWord)},
                            {"profiles", model.profiles.size()},
@@ -172,8 +186,9 @@ void add_stored_lobes(const StoredLobes& lobes, Report& report) {
                            {"seed", lobes.record.seed}}}});
     report.sentences.push_back(
         fmt::format("lobes that rotate with the skin: order {{lobes/order}}, {} and "
-                    "{{lobes/bytes_bound_per_vertex}} bytes per vertex, {{lobes/profiles}} profiles",
-                    counted("lobes/lobes_per_vertex", "lobe")));
+                    "{{lobes/bytes_bound_per_vertex}} bytes per vertex, {{lobes/vertices}} {}, "
+                    "{{lobes/profiles}} profiles",
+                    counted("lobes/lobes_per_vertex", "lobe"), vertices == 1 ? "vertex" : "vertices"));
     report.sentences.push_back(fmt::format(
         "fitted to {}, {{lobes/rays_per_receiver}} rays per vertex in each, {}, seed {{lobes/seed}}",
         counted("lobes/poses", "pose"), counted("lobes/bounces", "bounce")));
@@ -218,9 +233,11 @@ void run(InfoArguments a, Session& session) {
     if (model.baked && !shared)
         add_baked(*model.baked, report);
     if (shared)
-        add_compressed(*model.instanced->compressed, report);
+        add_compressed(*model.instanced->compressed, vertices_without_lobes(model.instanced->stored), report);
     if (model.compressed)
-        add_compressed(*model.compressed, report);
+        add_compressed(*model.compressed,
+                       model.lightmap ? model.lightmap->layout.texels() : vertices_without_lobes(model.scene),
+                       report);
     if (model.volume)
         add_volume(model.volume->grid, model.volume->visibility.size(), model.volume->order, report);
     if (model.compressed_volume)
@@ -231,7 +248,7 @@ void run(InfoArguments a, Session& session) {
         report.sentences.push_back("{occlusion_volumes} nodes have an occlusion volume");
     }
     if (model.lobes)
-        add_stored_lobes(*model.lobes, report);
+        add_stored_lobes(*model.lobes, vertices_with_lobes(model.scene), report);
     add_level_figures(model.document, report);
     if (!model.record() && !model.lobes)
         report.sentences.emplace_back("no transfer");

@@ -13,11 +13,13 @@
 #include "prt/core/error.h"
 #include "prt/fit/lobe_fit.h"
 #include "prt/gltf/transfer_gltf.h"
+#include "runtime/core/support/counted.h"
 #include "runtime/core/support/stopwatch.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace prt::cli {
 namespace {
@@ -46,17 +48,39 @@ void check_weights(const AnimatedScene& model) {
     }
 }
 
-/// Whether some vertex lies elsewhere in some pose than in the first.
-bool moves(const AnimatedScene& model, std::span<const ModelPose> poses) {
+/// Whether some vertex of `scene` with lobes lies elsewhere in some pose than in the first.
+bool moves(const AnimatedScene& model, const Scene& scene, std::span<const ModelPose> poses) {
     const auto points = [&](const ModelPose& pose) {
         std::vector<std::vector<glm::vec3>> arrays;
-        for (VertexArray& vertices : model.posed(pose.nodes, glm::dmat4(1)).vertex_arrays)
-            arrays.push_back(std::move(vertices.positions));
+        Scene posed = model.posed(pose.nodes, glm::dmat4(1));
+        for (std::size_t array = 0; array < posed.vertex_arrays.size(); ++array)
+            if (scene.vertex_arrays[array].lobes)
+                arrays.push_back(std::move(posed.vertex_arrays[array].positions));
         return arrays;
     };
     const auto first = points(poses.front());
     return std::ranges::any_of(poses.subspan(1),
                                [&](const ModelPose& pose) { return points(pose) != first; });
+}
+
+/// Returns the scene with VertexArray::lobes of vertices that move. Throws `Error` if none can move.
+Scene with_figure(const AnimatedScene& model, std::span<const ModelPose> poses) {
+    Scene scene = model.scene();
+    const std::vector<bool> moving = moving_arrays(model, poses);
+    for (std::size_t array = 0; array < moving.size(); ++array)
+        scene.vertex_arrays[array].lobes = moving[array];
+    if (std::ranges::find(moving, true) == moving.end())
+        throw Error("no vertex moves in these poses; use prt bake for a model that does not move");
+    return scene;
+}
+
+/// Returns the receivers of the vertices that get lobes.
+std::vector<std::size_t> figure_of(const Scene& scene) {
+    std::vector<std::size_t> receivers;
+    for (const VertexArray& vertices : scene.vertex_arrays)
+        for (std::size_t v = 0; vertices.lobes && v < vertices.size(); ++v)
+            receivers.push_back(vertices.first_receiver + v);
+    return receivers;
 }
 
 /// Returns the mean square of lighting in each band, over all orientations.
@@ -71,15 +95,18 @@ void set_band_costs(int order, LobeFitOptions& options) {
 }
 
 struct Made {
-    LobeModel lobes;
+    LobeModel lobes; ///< words of 0 for vertices that do not move
     MeanTransfer mean;
+    std::size_t figure = 0; ///< number of vertices with lobes
     double bake_seconds = 0, fit_seconds = 0;
     double fit_error = 0, coded_error = 0; ///< against the mean, before and after bytes
 };
 
-Made make_lobes(const LobesArguments& a, const AnimatedScene& model, std::span<const ModelPose> poses,
-                Session& session) {
+Made make_lobes(const LobesArguments& a, const AnimatedScene& model, const Scene& scene,
+                std::span<const ModelPose> poses, Session& session) {
     Made made;
+    const std::vector<std::size_t> figure = figure_of(scene);
+    made.figure = figure.size();
     const Stopwatch baking;
     {
         ProgressBar bar = session.progress_bar("baking poses");
@@ -88,19 +115,31 @@ Made make_lobes(const LobesArguments& a, const AnimatedScene& model, std::span<c
     made.bake_seconds = baking.seconds();
     const Stopwatch fitting;
     ProgressBar bar = session.progress_bar("fitting lobes");
-    const LobeTargets targets{a.bake.order, made.mean.vectors, made.mean.areas};
+    const std::size_t coefficients = made.mean.coefficients();
+    std::vector<double> vectors;
+    std::vector<float> areas;
+    for (const std::size_t receiver : figure) {
+        const auto first = made.mean.vectors.begin() + static_cast<std::ptrdiff_t>(receiver * coefficients);
+        vectors.insert(vectors.end(), first, first + static_cast<std::ptrdiff_t>(coefficients));
+        areas.push_back(made.mean.areas[receiver]);
+    }
+    const LobeTargets targets{a.bake.order, vectors, areas};
     const std::vector<Lobe> fitted = fit_lobes(targets, a.fit, bar.progress().range(0, 0.5));
     made.lobes = code_lobes(targets, fitted, a.fit, bar.progress().range(0.5, 1));
     made.fit_seconds = fitting.seconds();
     made.fit_error = lobe_error(targets, fitted, a.fit);
     made.coded_error = lobe_error(targets, decoded(made.lobes), a.fit);
+    const std::vector<LobeWord> words = std::exchange(made.lobes.words, {});
+    made.lobes.words.resize(scene.receivers() * made.lobes.lobes);
+    for (std::size_t i = 0; i < words.size(); ++i)
+        made.lobes.words[figure[i / made.lobes.lobes] * made.lobes.lobes + i % made.lobes.lobes] = words[i];
     return made;
 }
 
 Report report_of(const LobesArguments& a, const Made& made, std::size_t poses) {
     const LobeModel& lobes = made.lobes;
     Report report;
-    add_figures(report, {{"vertices", lobes.vertices()},
+    add_figures(report, {{"vertices", made.figure},
                          {"vertices_hidden", made.mean.hidden},
                          {"order", lobes.order},
                          {"lobes_per_vertex", lobes.lobes},
@@ -128,19 +167,28 @@ Report report_of(const LobesArguments& a, const Made& made, std::size_t poses) {
     return report;
 }
 
-void measure_frames(const LobesArguments& a, const AnimatedScene& model, const Made& made, Session& session,
-                    Report& report) {
+void measure_frames(const LobesArguments& a, const AnimatedScene& model, const Scene& scene, const Made& made,
+                    Session& session, Report& report) {
     if (a.frames == 0)
         return;
     ProgressBar bar = session.progress_bar("measuring");
     PoseBakeOptions options = a.bake;
     options.seed += 0x51ed270b; // far from the seeds of the poses, which are consecutive
     add_lobe_errors({.model = model,
+                     .figure = figure_of(scene),
                      .lobes = made.lobes,
                      .mean = made.mean,
                      .frames = frames_of(model, a.frames, a.animation),
                      .options = options},
                     bar.progress(), report);
+}
+
+/// Prints a notice about vertices that have neither lobes nor transfer.
+void note_the_rest(const LobesArguments& a, const Scene& scene, const Made& made, bool has_transfer) {
+    if (!has_transfer && made.figure < scene.receivers())
+        print_notices(a.model.string(),
+                      {prt::counted(scene.receivers() - made.figure, "vertex does", "vertices do") +
+                       " not move and have no transfer; prt bake bakes it, before or after prt lobes"});
 }
 
 void run(LobesArguments a, Session& session) {
@@ -150,19 +198,23 @@ void run(LobesArguments a, Session& session) {
     a.bake.bad_textures = a.reading.bad_textures;
     a.fit.threads = a.bake.threads;
     set_band_costs(a.bake.order, a.fit);
-    GltfDocument document = load_to_pass_on(a.model, a.reading).document;
+    ModelToPassOn input = load_to_pass_on(a.model, a.reading);
+    GltfDocument& document = input.document;
+    input.scene = {}; // frees memory: `model` has it
     const AnimatedScene model(document);
     Report report;
     about(a.model, [&] {
         check_weights(model);
         const std::vector<ModelPose> poses = poses_of(model, a.poses, a.animation);
-        if (!moves(model, poses))
+        const Scene scene = with_figure(model, poses);
+        if (!moves(model, scene, poses))
             print_notices(a.model.string(),
                           {"no vertex moves in these poses; use prt bake for a model that does not move"});
-        const Made made = make_lobes(a, model, poses, session);
+        const Made made = make_lobes(a, model, scene, poses, session);
         report = report_of(a, made, poses.size());
-        measure_frames(a, model, made, session, report);
-        write_lobes(document, model.scene(),
+        note_the_rest(a, scene, made, input.has_transfer);
+        measure_frames(a, model, scene, made, session, report);
+        write_lobes(document, scene,
                     {made.lobes,
                      {.poses = static_cast<int>(poses.size()),
                       .rays = made.mean.rays_per_vertex,
@@ -228,7 +280,8 @@ void add_lobes(CLI::App& app, Session& session) {
     command
         ->add_option("model", a.model,
                      "model to bake: glTF 2.0 with at least one animation, .gltf or .glb\n"
-                     "                              meshes with a skin need JOINTS_0 and WEIGHTS_0")
+                     "                              meshes with a skin need JOINTS_0 and WEIGHTS_0\n"
+                     "                              vertices that do not move keep their transfer")
         ->required()
         ->check(named);
     add_output(command, a.output, "write the model with its lobes to this file, .glb");

@@ -11,6 +11,7 @@
 #include "cli/arguments/view_arguments.h"
 #include "cli/pipeline/lamp_strengths.h"
 #include "cli/pipeline/loaded_light.h"
+#include "cli/pipeline/posed_lobes.h"
 #include "cli/pipeline/solid_materials.h"
 #include "cli/program/outputs.h"
 #include "cli/program/session.h"
@@ -69,9 +70,11 @@ std::vector<glm::vec3> lit_by_transfer(const Lighting& lighting, int threads, Sc
     std::vector<glm::vec3> radiance = model.compressed
                                           ? exit_radiance(model.compressed->transfer, lighting, threads)
                                           : exit_radiance(model.baked->transfer, lighting, threads);
+    light_lobes(model, lighting, radiance);
     model.baked.reset();
     model.compressed.reset();
     discard_transfer(model.document);
+    discard_lobes(model.document);
     return radiance;
 }
 
@@ -85,7 +88,7 @@ void add_suns(const TraceScene& scene, std::span<const Sun> suns, const SunRays&
 
 /// Whether suns can only be lit with the sky.
 bool is_together(const SceneFile& model) {
-    return layout_of(model).has(TermKind::combined);
+    return model.lobes || layout_of(model).has(TermKind::combined);
 }
 
 void check_model(const RelightArguments& a, const SceneFile& model) {

@@ -125,14 +125,16 @@ std::unique_ptr<GlContext> choose_backend(Backend backend, bool shadows_on_cpu) 
 /// Returns the reason why suns cannot be separate from the sky, with advice; empty if they can. A model
 /// without transfer has only direct light.
 std::string why_together(const RenderArguments& a, const SceneFile& model) {
-    if (model.record() && layout_of(model).has(TermKind::combined))
+    if (model.lobes || (model.record() && layout_of(model).has(TermKind::combined)))
         return a.model.string() + ": " + kNoDirectTerm;
     return {};
 }
 
 /// Loads the light, with separate suns if possible and requested.
 LoadedLight load_lit(const RenderArguments& a, const SceneFile& model) {
-    const int order = model.order() > 0 ? model.order() : kUnshadowedOrder;
+    const int order = model.order() > 0 ? model.order()
+                      : model.lobes     ? model.lobes->model.order
+                                        : kUnshadowedOrder;
     if (a.environment.empty())
         return dark_sky(order);
     const bool lit = a.drawn_lit() || a.look.show == Show::error;
@@ -162,13 +164,16 @@ Lighting lighting_of(const RenderArguments& a, const SceneFile& model, const Loa
 }
 
 /// Returns exit radiance for albedo 1 of the receivers, texels or vertices: from compressed or baked
-/// transfer, or unshadowed.
+/// transfer, from lobes, or unshadowed.
 std::vector<glm::vec3> lit_colors(const SceneFile& model, const Lighting& lighting, int threads) {
-    if (model.compressed)
-        return exit_radiance(model.compressed->transfer, lighting, threads);
-    if (model.baked)
-        return exit_radiance(model.baked->transfer, lighting, threads);
-    return exit_radiance(unshadowed_transfer(model.scene, lighting.sky.order), lighting, threads);
+    std::vector<glm::vec3> colors =
+        model.compressed ? exit_radiance(model.compressed->transfer, lighting, threads)
+        : model.baked
+            ? exit_radiance(model.baked->transfer, lighting, threads)
+            : exit_radiance(unshadowed_transfer(model.scene, lighting.sky.order), lighting, threads);
+    if (!model.lightmap)
+        light_lobes(model, lighting, colors);
+    return colors;
 }
 
 /// Prints a notice if the lights of the model are far brighter than its sky.
@@ -226,8 +231,8 @@ std::vector<glm::vec3> colors_to_show(const RenderArguments& a, const SceneFile&
         about(a.model, [&] { put_in_order_of(model.scene, baked); });
         if (model.lightmap)
             return lightmap_errors(baked, model, lighting, a.threads);
-        return error_colors(exit_radiance(baked.baked->transfer, lighting, a.threads),
-                            lit_colors(model, lighting, a.threads), receiver_areas(baked.scene));
+        return error_colors(lit_colors(baked, lighting, a.threads), lit_colors(model, lighting, a.threads),
+                            receiver_areas(baked.scene));
     }
     case Show::lit:
         break;
@@ -242,10 +247,11 @@ struct LitMaps {
 
 /// Returns the maps. `colors` belong to the receivers; a bake has only some texels, and other texels take the
 /// color of one nearby.
-LitMaps lit_maps(const SceneFile& model, const std::vector<glm::vec3>& colors) {
+LitMaps lit_maps(const SceneFile& model, const Lighting& lighting, const std::vector<glm::vec3>& colors) {
     const LightmapOfFile& lightmap = *model.lightmap;
     LitMaps lit{model.baked ? scatter_to_maps(lightmap.layout, lightmap.texels, colors) : colors, {}};
     lit.at_vertices = at_vertices(model.scene, lightmap.layout, lit.texels);
+    light_lobes(model, lighting, lit.at_vertices);
     return lit;
 }
 
@@ -448,12 +454,11 @@ void check_exposed(const RenderArguments& a, const CLI::App& command) {
     }
 }
 
-/// Reads the model. Lobes are converted to transfer if it has no other.
+/// Reads the model.
 SceneFile load_model(const RenderArguments& a) {
     SceneFile model = load_scene_file(a.model, a.reading);
-    if (!model.record() && model.lobes)
-        model.baked = lobes_as_transfer(model);
-    if (!model.record() && (!a.traced() || a.error() == ErrorOf::traced))
+    const bool open = !model.record() && !std::ranges::all_of(model.scene.vertex_arrays, &VertexArray::lobes);
+    if (open && (!a.traced() || a.error() == ErrorOf::traced))
         print_notices(a.model.string(), {"has no transfer: the sky casts no shadows"});
     return model;
 }
@@ -498,7 +503,7 @@ std::unique_ptr<Shown> show(const RenderArguments& a, const SceneFile& model, co
     auto shown = std::make_unique<Shown>();
     shown->colors = colors_to_show(a, model, lighting);
     if (model.lightmap) {
-        shown->maps = lit_maps(model, shown->colors);
+        shown->maps = lit_maps(model, lighting, shown->colors);
         picture.in_shader.lightmaps = {.layout = &model.lightmap->layout, .radiance = shown->maps.texels};
     }
     picture.radiance = model.lightmap ? shown->maps.at_vertices : shown->colors;

@@ -59,7 +59,7 @@ private:
         const MeanTransfer& mean = request_.mean;
         if (method == Method::shipped) {
             std::vector<float> vector(to.size());
-            lobe_transfer_in_pose(request_.lobes, frames_, v, mean.order, vector);
+            lobe_transfer(lobes_in_pose(request_.lobes, frames_, v), mean.order, vector);
             std::copy(vector.begin(), vector.end(), to.begin());
         } else if (method == Method::unshadowed) {
             clamped_cosine_lobe(mean.order, glm::dvec3(normals_[v]), to);
@@ -123,14 +123,17 @@ void add_lobe_errors(const LobeErrorRequest& request, const Progress& progress, 
         const double from = static_cast<double>(f) / frames;
         const PoseTransfer truth =
             bake_pose(request.model, pose, request.options, progress.range(from, from + 1 / frames));
+        std::vector<float> areas(truth.areas.size());
+        for (const std::size_t receiver : request.figure)
+            areas[receiver] = truth.areas[receiver];
         const LobeFrame frame(request, pose);
         ByMethod of_frame{};
         for (std::size_t m = 0; m < kMethods; ++m) {
             const Transfer transfer = frame.transfer(static_cast<Method>(m));
             for (std::size_t i = 0; i < lights.size(); ++i) {
-                const double error = lit_rms(
-                    exit_radiance(truth.transfer, lights[i].lighting, request.options.threads),
-                    exit_radiance(transfer, lights[i].lighting, request.options.threads), truth.areas);
+                const double error =
+                    lit_rms(exit_radiance(truth.transfer, lights[i].lighting, request.options.threads),
+                            exit_radiance(transfer, lights[i].lighting, request.options.threads), areas);
                 by_sky[i][m] += error * error;
                 of_frame[m] += error * error;
                 all[m] += error * error / (frames * skies);

@@ -7,14 +7,17 @@
 #include "prt/bake/pose_bake.h"
 #include "prt/core/lobes.h"
 
+#include <cstddef>
 #include <span>
+#include <vector>
 
 namespace prt::pipeline {
 
 struct LobeErrorRequest {
     const AnimatedScene& model;
-    const LobeModel& lobes;   ///< the shipped lobes
-    const MeanTransfer& mean; ///< the lobes were fitted to it
+    std::vector<std::size_t> figure; ///< receivers with lobes; others are ignored
+    const LobeModel& lobes;          ///< the shipped lobes
+    const MeanTransfer& mean;        ///< the lobes were fitted to it
     std::span<const ModelPose> frames;
     PoseBakeOptions options; ///< options of the reference bakes of the frames; their seed differs from that
                              ///< of the fit

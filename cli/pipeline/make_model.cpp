@@ -62,10 +62,20 @@ struct TrialBake {
     double seconds_per_ray = 0;
 };
 
+/// Reads the scene. Its lobes are removed: all vertices get transfer.
+GltfDocument load_without_lobes(const MakeRequest& request, const Host& host) {
+    GltfDocument document = load_gltf(request.scene, request.reading);
+    if (has_lobes(document)) {
+        send(host.notify, request.scene, {"its lobes are removed; run prt lobes on the output"});
+        discard_lobes(document);
+    }
+    return document;
+}
+
 class Maker {
 public:
     Maker(const MakeRequest& request, const Host& host, std::vector<ReferenceLight> lights)
-        : r_(request), host_(host), document_(load_gltf(request.scene, request.reading)),
+        : r_(request), host_(host), document_(load_without_lobes(request, host)),
           scene_(extract_scene(document_)), lights_(std::move(lights)) {
         send(host_.notify, r_.scene, scene_.notices);
         check_no_media(scene_, solid_materials(scene_));

@@ -138,9 +138,10 @@ BakedLightmap take_baked_lightmap(SceneFile& model) {
 
 ModelToPassOn load_to_pass_on(const Path& path, const ReadingOptions& options) {
     SceneFile file = load_scene_file(path, options);
-    if (file.record())
+    const bool transfer = file.record() != nullptr;
+    if (transfer)
         send(options.notify, path, file.scene.notices);
-    return {std::move(file.document), std::move(file.scene)};
+    return {std::move(file.document), std::move(file.scene), transfer};
 }
 
 Environment load_environment_map(const Path& path, const EnvironmentOptions& options, const Notify& notify) {

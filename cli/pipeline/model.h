@@ -72,6 +72,7 @@ BakedLightmap take_baked_lightmap(SceneFile& model);
 struct ModelToPassOn {
     GltfDocument document;
     Scene scene;
+    bool has_transfer; ///< of vertices or texels
 };
 /// Reads everything that `load_scene_file` reads, and sends the notices of the scene.
 ModelToPassOn load_to_pass_on(const Path& path, const ReadingOptions& options);

@@ -1,32 +1,29 @@
-// Sums the lobes of vertices to transfer vectors.
+// Lights lobes in a pose.
 
 #include "cli/pipeline/posed_lobes.h"
 
-#include <array>
-
 namespace prt::pipeline {
 
-void lobe_transfer_in_pose(const LobeModel& lobes, const VertexFrames& frames, std::size_t vertex, int order,
-                           std::span<float> transfer) {
+std::array<Lobe, kMaxLobes> lobes_in_pose(const LobeModel& lobes, const VertexFrames& frames,
+                                          std::size_t vertex) {
     std::array<Lobe, kMaxLobes> of_vertex;
     lobes.decode(vertex, of_vertex);
     for (Lobe& lobe : of_vertex)
         lobe.axis = rotated_axis(lobe.axis, axis_rotation(glm::mat3(frames.matrix(vertex))));
-    lobe_transfer(of_vertex, order, transfer);
+    return of_vertex;
 }
 
-BakedTransfer lobes_as_transfer(const SceneFile& model) {
-    const StoredLobes& stored = model.lobes.value();
+void light_lobes(const SceneFile& model, const Lighting& lighting, std::span<glm::vec3> radiance) {
+    if (!model.lobes)
+        return;
+    const LobeModel& lobes = model.lobes->model;
+    const Light light = lighting.suns ? sum(lighting.sky, *lighting.suns) : lighting.sky;
     const AnimatedScene animated(model.document);
     const VertexFrames frames(animated, {"", 0, animated.rest()});
-    const int order = stored.model.order;
-    BakedTransfer result{zero_transfer(order, 1, frames.vertices()), {}};
-    result.record.bounces = stored.record.bounces;
-    result.record.rays = stored.record.rays;
-    result.record.seed = stored.record.seed;
-    for (std::size_t v = 0; v < frames.vertices(); ++v)
-        lobe_transfer_in_pose(stored.model, frames, v, order, result.transfer.vector(v));
-    return result;
+    for (const VertexArray& vertices : model.scene.vertex_arrays)
+        for (std::size_t v = vertices.first_receiver;
+             vertices.lobes && v < vertices.first_receiver + vertices.size(); ++v)
+            radiance[v] = lobe_radiance(lobes_in_pose(lobes, frames, v), light.coefficients, light.order);
 }
 
 } // namespace prt::pipeline

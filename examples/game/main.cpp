@@ -170,6 +170,8 @@ std::vector<Mesh> upload_meshes(const World& world) {
     std::vector<Mesh> meshes;
     for (const prt::Primitive& primitive : world.scene.primitives) {
         const prt::VertexArray& vertices = world.scene.vertex_arrays[primitive.vertices];
+        if (vertices.lobes) // a figure: see prt/core/lobes.h
+            continue;
         Mesh mesh{0, static_cast<GLsizei>(3 * primitive.triangles.size()),
                   glm::vec3(world.scene.materials[primitive.material].base_color)};
         glGenVertexArrays(1, &mesh.vertex_array);

@@ -39,6 +39,9 @@ static_assert(sizeof(prt::ClusterLayout) == 4 * sizeof(std::uint32_t) &&
 prt_model* make_model(prt::Model model, const std::string& name) {
     if (!model.vertices)
         throw Error(name + ": contains no compressed transfer; run prt compress first");
+    std::erase_if(model.scene.primitives, [&](const prt::Primitive& primitive) {
+        return model.scene.vertex_arrays[primitive.vertices].lobes;
+    });
     auto instances = shared_instances(model);
     prt::ClusteredTransfer& transfer = model.vertices->transfer;
     prt::ClusterLighting relighter(transfer);

@@ -6,7 +6,9 @@
 #include "runtime/core/support/printable.h"
 #include "runtime/load/accessor.h"
 #include "runtime/load/flat_normals.h"
+#include "runtime/load/lobe_transfer.h"
 #include "runtime/load/materials.h"
+#include "runtime/load/receiver_sets.h"
 #include "runtime/load/scene_size.h"
 #include "runtime/load/shared_vertices.h"
 #include "runtime/load/skinning.h"
@@ -103,7 +105,8 @@ void apply_morph_targets(const GltfModel& model, const GltfPrimitive& primitive,
 class GeometryExtractor {
 public:
     GeometryExtractor(const GltfData& data, Keep keep, UnitRange& range)
-        : data_(data), model_(data.model), keep_(keep), range_(range) {
+        : data_(data), model_(data.model), keep_(keep), range_(range),
+          leaves_out_lobes_(data.leave_out_lobes && has_surface_transfer(data)) {
         geometry_.scene.materials = read_base_materials(data.json, range);
     }
 
@@ -234,6 +237,8 @@ private:
             ++seen_.skipped_primitives;
             return;
         }
+        if (leaves_out_lobes_ && has_lobes(data_, file))
+            return;
         Primitive primitive{transform.node,
                             node.mesh,
                             index,
@@ -274,7 +279,16 @@ private:
         seen_.has_morphs |= !file.targets.empty();
         apply_morph_targets(model_, file, node.weights.empty() ? mesh.weights : node.weights, vertices);
 
-        MovingVertices moving{static_cast<std::size_t>(node_transform.node), node.skin, {}, {}, 1, {}, {}};
+        vertices.lobes = has_lobes(data_, file);
+
+        MovingVertices moving{static_cast<std::size_t>(node_transform.node),
+                              node.skin,
+                              {},
+                              {},
+                              1,
+                              {},
+                              {},
+                              !file.targets.empty()};
         if (node.skin >= 0)
             read_influences(model_, file, skin_of(node.skin).joints.size(), vertices.size(), moving);
         std::vector<glm::dvec3> points;
@@ -386,6 +400,7 @@ private:
     const GltfModel& model_;
     Keep keep_;
     UnitRange& range_;
+    bool leaves_out_lobes_;
     Geometry geometry_;
     Scene& scene_ = geometry_.scene;
     std::vector<std::vector<glm::dvec3>> positions_; ///< [vertex arrays][vertices] in the world

@@ -33,6 +33,7 @@ struct GltfData {
     std::vector<std::string> notices; ///< changes made while reading, one line each
     std::size_t file_bytes = 0;       ///< size of the file and its external buffers
     double scene_limit = 0;           ///< GltfOptions::scene_limit
+    bool leave_out_lobes = false;     ///< GltfOptions::leave_out_lobes
     std::string limit_remedy;         ///< end of the message about a scene that needs too much memory
     std::vector<ExpandedNode> expanded;
     std::vector<DeduplicatedMesh> separate;

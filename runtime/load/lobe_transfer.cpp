@@ -59,9 +59,13 @@ std::string lobe_name(std::size_t lobe) {
     return "_PRT_LOBE_" + std::to_string(lobe);
 }
 
+bool has_lobes(const GltfData& data, const GltfPrimitive& primitive) {
+    return extension_of(data.json, kLobeExtension) && attribute_of(primitive, lobe_name(0)) >= 0;
+}
+
 std::optional<StoredLobes> read_lobes(const GltfData& data, const Scene& scene) {
     const Json* extension = find_extension(data, kLobeExtension, kLobeVersion);
-    if (!extension)
+    if (!extension || std::ranges::none_of(scene.vertex_arrays, &VertexArray::lobes))
         return std::nullopt;
     StoredLobes stored;
     LobeModel& model = stored.model;
@@ -80,7 +84,7 @@ std::optional<StoredLobes> read_lobes(const GltfData& data, const Scene& scene) 
         Json own = Json::object();
         for (std::size_t k = 0; k < model.lobes; ++k)
             own[lobe_name(k)] = attributes.value(lobe_name(k), Json());
-        if (!read.is_new(primitive, own))
+        if (!read.is_new(primitive, own) || !scene.vertex_arrays[primitive.vertices].lobes)
             continue;
         try {
             read_lobe_words(data, attributes, scene.vertex_arrays[primitive.vertices], model);

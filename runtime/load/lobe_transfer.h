@@ -16,8 +16,11 @@ inline constexpr int kLobeVersion = 1;
 /// Returns the name of the attribute that holds a lobe.
 std::string lobe_name(std::size_t lobe);
 
-/// Returns the lobes of the vertices of `scene`; empty if the file has none. Throws `Error` if they are
-/// damaged, too large or of another version.
+/// Returns whether the vertices of a primitive have lobes.
+bool has_lobes(const GltfData& data, const GltfPrimitive& primitive);
+
+/// Returns the lobes of the vertices of `scene`: words of 0, which give no light, for arrays without lobes.
+/// Empty if no array has lobes. Throws `Error` if they are damaged, too large or of another version.
 std::optional<StoredLobes> read_lobes(const GltfData& data, const Scene& scene);
 
 } // namespace prt

@@ -12,4 +12,9 @@ inline bool is_own_attribute(std::string_view name) {
     return name.starts_with("_PRT_");
 }
 
+/// Returns whether an attribute contains a lobe.
+inline bool is_lobe_attribute(std::string_view name) {
+    return name.starts_with("_PRT_LOBE_");
+}
+
 } // namespace prt

@@ -108,6 +108,10 @@ const Json* find_set(const GltfData& data, ReceiverKind kind, Coding coding) {
     return has_coding(set, coding) ? set : nullptr;
 }
 
+bool has_surface_transfer(const GltfData& data) {
+    return find_set(data, ReceiverKind::vertices) || find_set(data, ReceiverKind::texels);
+}
+
 Json* find_set_to_decode(GltfData& data) {
     if (extension_of(data.json, kFormerClusteredExtension)) // its words and colors are needed as geometry is
         throw_former(kFormerClusteredExtension);

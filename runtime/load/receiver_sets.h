@@ -25,6 +25,9 @@ const Json* find_set(const GltfData& data, ReceiverKind kind);
 /// function above.
 const Json* find_set(const GltfData& data, ReceiverKind kind, Coding coding);
 
+/// Returns whether the file has a set of vertices or texels. Throws the errors of `find_set`.
+bool has_surface_transfer(const GltfData& data);
+
 /// Returns the set of vertices if its transfer is clustered, for functions that change it; null without
 /// such a set, or if the file has raw transfer of a former version, which a bake replaces. Throws `Error` for
 /// compressed transfer of a former version, and the errors of `find_set`.

@@ -70,6 +70,10 @@ LightmapLayout read_layout_of_maps(const GltfData& data, const Scene& scene, con
         layout.maps.push_back(read_map(map));
     check_allowed(8 * static_cast<double>(layout.texels()), data.file_bytes, "its lightmaps");
     for (const Primitive& primitive : scene.primitives) {
+        if (scene.vertex_arrays[primitive.vertices].lobes) {
+            layout.placements.push_back({.map = kNoMap});
+            continue;
+        }
         const Json* of_primitive = extension_of(primitive_json(data, primitive), kTransferExtension);
         if (!of_primitive)
             throw Error(primitive_name(primitive) + " has no " + kTransferExtension);

@@ -147,7 +147,8 @@ std::optional<CompressedTransfer> read_clustered(const GltfData& data, const Sce
     TransferOfVertices read;
     for (const Primitive& primitive : scene.primitives) {
         const Json& attributes = primitive_json(data, primitive).at("attributes");
-        if (!read.is_new(primitive, own_attributes(attributes)))
+        if (scene.vertex_arrays[primitive.vertices].lobes ||
+            !read.is_new(primitive, own_attributes(attributes)))
             continue;
         try {
             read_receivers(data, attributes, scene.vertex_arrays[primitive.vertices], scene.receivers(),

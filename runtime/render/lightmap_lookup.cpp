@@ -31,10 +31,18 @@ LightmapLookup::LightmapLookup(const Scene& scene, const LightmapLayout& layout)
                                    static_cast<std::uint32_t>(primitive.triangles.size()));
 }
 
+std::size_t LightmapLookup::primitive_of(std::uint32_t triangle) const {
+    return static_cast<std::size_t>(std::ranges::upper_bound(first_triangles_, triangle) -
+                                    first_triangles_.begin()) -
+           1;
+}
+
+bool LightmapLookup::has_texels(std::uint32_t triangle) const {
+    return layout_.placements[primitive_of(triangle)].map != kNoMap;
+}
+
 BilinearTexels LightmapLookup::filter(std::uint32_t triangle, const glm::vec2& barycentrics) const {
-    const auto p = static_cast<std::size_t>(std::ranges::upper_bound(first_triangles_, triangle) -
-                                            first_triangles_.begin()) -
-                   1;
+    const std::size_t p = primitive_of(triangle);
     const Primitive& primitive = scene_.primitives[p];
     const LightmapPlacement& position = layout_.placements[p];
     const std::vector<glm::vec2>& uv =
@@ -56,6 +64,8 @@ std::vector<glm::vec3> at_vertices(const Scene& scene, const LightmapLayout& lay
     const std::vector<std::size_t> first = layout.first_texels();
     for (std::size_t p = 0; p < scene.primitives.size(); ++p) {
         const LightmapPlacement& position = layout.placements[p];
+        if (position.map == kNoMap)
+            continue;
         const VertexArray& vertices = scene.vertex_arrays[scene.primitives[p].vertices];
         const auto& uv = vertices.texcoords[static_cast<std::size_t>(position.texcoord)];
         for (std::size_t v = 0; v < vertices.size(); ++v)

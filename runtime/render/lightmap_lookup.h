@@ -20,10 +20,12 @@ public:
     /// Keeps references to `scene` and `layout`, which must belong together and outlive this object.
     LightmapLookup(const Scene& scene, const LightmapLayout& layout);
 
+    /// Returns whether a triangle shows texels; others have lobes. `triangle`: as for `filter`.
+    bool has_texels(std::uint32_t triangle) const;
     /// Returns the four texels and weights of the bilinear sample at a point of a triangle. Texels are
     /// numbered over all maps of the layout: indices into an array [layout.texels()]. `triangle`: number of
     /// the triangle, counted over all primitives of the scene in order. `barycentrics`: barycentric
-    /// coordinates of the second and the third corner of the triangle.
+    /// coordinates of the second and the third corner of the triangle, which must show texels.
     BilinearTexels filter(std::uint32_t triangle, const glm::vec2& barycentrics) const;
     /// Returns the bilinear sample of `values` at a point of a triangle. `values`: [layout.texels()].
     /// `triangle`: number of the triangle, counted over all primitives of the scene in order. `barycentrics`:
@@ -32,6 +34,8 @@ public:
                       std::span<const glm::vec3> values) const;
 
 private:
+    std::size_t primitive_of(std::uint32_t triangle) const;
+
     const Scene& scene_;
     const LightmapLayout& layout_;
     std::vector<std::size_t> first_texels_;
@@ -40,7 +44,7 @@ private:
 
 /// Returns the bilinear samples of `values` [layout.texels()] at the vertices of `scene`:
 /// [receivers of the scene]. If several primitives share vertices, the last one determines the map and the UV
-/// set.
+/// set. Vertices without texels get 0.
 std::vector<glm::vec3> at_vertices(const Scene& scene, const LightmapLayout& layout,
                                    std::span<const glm::vec3> values);
 

@@ -200,7 +200,9 @@ void write_occluder(const Path& folder) {
 /// A skinned triangle with two lobes a vertex.
 void write_lobed(const Path& folder) {
     GltfDocument document = document_of(dressed_file());
-    const Scene scene = extract_scene(document);
+    Scene scene = extract_scene(document);
+    for (VertexArray& vertices : scene.vertex_arrays)
+        vertices.lobes = true;
     StoredLobes lobes;
     lobes.model.order = 3;
     lobes.model.lobes = 2;

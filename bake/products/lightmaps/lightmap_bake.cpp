@@ -287,7 +287,7 @@ private:
         LightmapStatistics& s = statistics();
         BakedLightmap& map = result_.lightmap;
         map.seams = unique_edges(std::move(map.seams));
-        map.layout.placements.resize(scene_.primitives.size());
+        map.layout.placements.resize(scene_.primitives.size(), {.map = kNoMap});
         for (std::size_t a = 0; a < atlases_.size(); ++a) {
             map.layout.maps.push_back(size_of(atlases_[a]));
             for (const std::size_t p : atlases_[a].primitives)

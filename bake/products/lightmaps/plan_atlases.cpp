@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 namespace prt {
 namespace {
@@ -64,7 +63,7 @@ Atlas sized(const Scene& scene, Atlas atlas, const TexelOptions& options) {
 
 std::vector<Atlas> of_each_object(const Scene& scene, const TexelOptions& options) {
     std::map<int, Atlas> by_node;
-    for (std::size_t p = 0; p < scene.primitives.size(); ++p)
+    for (const std::size_t p : surfaces_with_texels(scene, options))
         by_node[scene.primitives[p].node].primitives.push_back(p);
     std::vector<Atlas> atlases;
     for (const auto& [node, atlas] : by_node)
@@ -73,10 +72,7 @@ std::vector<Atlas> of_each_object(const Scene& scene, const TexelOptions& option
 }
 
 Atlas of_all(const Scene& scene, const TexelOptions& options) {
-    Atlas atlas;
-    atlas.primitives.resize(scene.primitives.size());
-    std::iota(atlas.primitives.begin(), atlas.primitives.end(), std::size_t{0});
-    return sized(scene, std::move(atlas), options);
+    return sized(scene, {.primitives = surfaces_with_texels(scene, options)}, options);
 }
 
 double overlap(const Scene& scene, const Atlas& atlas) {
@@ -84,6 +80,14 @@ double overlap(const Scene& scene, const Atlas& atlas) {
 }
 
 } // namespace
+
+std::vector<std::size_t> surfaces_with_texels(const Scene& scene, const TexelOptions& options) {
+    std::vector<std::size_t> primitives;
+    for (std::size_t p = 0; p < scene.primitives.size(); ++p)
+        if (!options.leave_out_lobes || !scene.vertex_arrays[scene.primitives[p].vertices].lobes)
+            primitives.push_back(p);
+    return primitives;
+}
 
 std::vector<Atlas> plan_atlases(const Scene& scene, const TexelOptions& options) {
     if (options.size > kMaxTexels || options.size < 0)

@@ -6,9 +6,7 @@
 #include <algorithm>
 
 namespace prt {
-namespace {
 
-/// The atlases that a lightmap was baked with.
 std::vector<Atlas> atlases_of(const LightmapLayout& layout) {
     std::vector<Atlas> atlases(layout.maps.size());
     for (std::size_t a = 0; a < atlases.size(); ++a) {
@@ -18,14 +16,14 @@ std::vector<Atlas> atlases_of(const LightmapLayout& layout) {
         atlases[a].repeats = map.repeats;
     }
     for (std::size_t p = 0; p < layout.placements.size(); ++p) {
+        if (layout.placements[p].map == kNoMap)
+            continue;
         Atlas& atlas = atlases[layout.placements[p].map];
         atlas.primitives.push_back(p);
         atlas.uv_set = layout.placements[p].texcoord;
     }
     return atlases;
 }
-
-} // namespace
 
 std::vector<SeamJump> seam_jumps(const Scene& scene, const LightmapLayout& layout,
                                  std::span<const std::uint32_t> texels) {

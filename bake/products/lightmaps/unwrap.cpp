@@ -152,10 +152,10 @@ private:
 };
 
 /// The primitives that share each texture.
-std::vector<std::vector<std::size_t>> groups(const Scene& scene, AtlasMode mode) {
+std::vector<std::vector<std::size_t>> groups(const Scene& scene, const TexelOptions& options) {
     std::map<int, std::vector<std::size_t>> by_node;
-    for (std::size_t p = 0; p < scene.primitives.size(); ++p)
-        by_node[mode == AtlasMode::each ? scene.primitives[p].node : 0].push_back(p);
+    for (const std::size_t p : surfaces_with_texels(scene, options))
+        by_node[options.atlases == AtlasMode::each ? scene.primitives[p].node : 0].push_back(p);
     std::vector<std::vector<std::size_t>> result;
     for (auto& [node, primitives] : by_node)
         result.push_back(std::move(primitives));
@@ -170,7 +170,7 @@ Unwrapping unwrap(const Scene& scene, const TexelOptions& options) {
         result.primitives.emplace_back().triangles.resize(primitive.triangles.size());
     result.texels_per_metre = std::numeric_limits<double>::infinity();
     ChartWriter writer(scene, result.primitives);
-    for (const std::vector<std::size_t>& primitives : groups(scene, options.atlases)) {
+    for (const std::vector<std::size_t>& primitives : groups(scene, options)) {
         const std::vector<ChartFace> faces = chart_faces(scene, primitives);
         const std::vector<SurfaceChart> charts =
             cut_into_charts(scene, faces, max_charts(options.size > 0 ? options.size : kMaxTexels));

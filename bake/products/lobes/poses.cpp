@@ -3,6 +3,8 @@
 #include "prt/bake/pose_bake.h"
 #include "prt/core/error.h"
 
+#include <algorithm>
+
 namespace prt {
 namespace {
 
@@ -55,6 +57,17 @@ std::vector<ModelPose> poses_of(const AnimatedScene& model, int count, const std
     std::vector<ModelPose> poses = {{"", 0, model.rest()}};
     add_poses(model, animations, count, 0.5, poses);
     return poses;
+}
+
+std::vector<bool> moving_arrays(const AnimatedScene& model, std::span<const ModelPose> poses) {
+    const std::vector<glm::dmat4> rest = model.rest();
+    std::vector<bool> moving;
+    for (const MovingVertices& vertices : model.vertices())
+        moving.push_back(vertices.skin >= 0 || vertices.morphs ||
+                         std::ranges::any_of(poses, [&](const ModelPose& pose) {
+                             return pose.nodes[vertices.node] != rest[vertices.node];
+                         }));
+    return moving;
 }
 
 std::vector<ModelPose> frames_of(const AnimatedScene& model, int count, const std::string& only) {

@@ -105,7 +105,7 @@ void find_figure(Channel& channel, const std::filesystem::path& path) {
 
 void find_volume(Channel& channel, const std::shared_ptr<const Model>& model) {
     channel.enter(Stage::reading, "reading the volume");
-    const prt::GltfDocument document = prt::load_gltf(model->path);
+    const prt::GltfDocument document = prt::load_gltf(model->path, {.leave_out_lobes = true});
     const prt::Scene scene = prt::extract_scene(document);
     if (prt::receivers_id(scene) != model->receivers_id)
         throw prt::Error(model->path.string() + ": the file has changed since it was opened");

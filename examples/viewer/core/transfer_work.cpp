@@ -150,7 +150,7 @@ Compressed compress_as(Channel& channel, const LoadedModel& loaded, const Compre
 
 void save_compressed(const LoadedModel& loaded, const std::filesystem::path& output) {
     const Model& model = *loaded.model;
-    prt::GltfDocument document = prt::load_gltf(model.path);
+    prt::GltfDocument document = prt::load_gltf(model.path, {.leave_out_lobes = true});
     const prt::Scene scene = prt::extract_scene(document);
     if (prt::receivers_id(scene) != model.receivers_id)
         throw prt::Error(model.path.string() + ": the file has changed since it was opened");

@@ -76,8 +76,14 @@ void GpuMoving::bind(const prt::GlObject& program, std::size_t primitive) const 
     glUniform1i(prt::uniform(program, "first_vertex"), static_cast<GLint>(array.first_receiver));
 }
 
+bool GpuMoving::moves(std::size_t primitive) const {
+    return lobe_words_.name() == 0 || scene_.vertex_arrays[scene_.primitives[primitive].vertices].lobes;
+}
+
 void GpuMoving::draw(const prt::GlObject& program) {
     for (std::size_t p = 0; p < scene_.primitives.size(); ++p) {
+        if (!moves(p))
+            continue;
         bind(program, p);
         gpu_.draw(program, arrays_, p);
     }
@@ -85,7 +91,7 @@ void GpuMoving::draw(const prt::GlObject& program) {
 
 void GpuMoving::draw_casters(const prt::GlObject& program) {
     for (std::size_t p = 0; p < scene_.primitives.size(); ++p) {
-        if (gpu_.blocking(scene_.primitives[p]) == prt::Blocking::nothing)
+        if (!moves(p) || gpu_.blocking(scene_.primitives[p]) == prt::Blocking::nothing)
             continue;
         bind(program, p);
         gpu_.draw_caster(program, arrays_, p);

@@ -35,6 +35,8 @@ private:
         int each = 0; ///< influences per vertex; 0: all vertices use one matrix
         std::size_t matrices = 0;
     };
+    /// Returns whether a primitive belongs to the figure: with lobes, only those that have lobes.
+    bool moves(std::size_t primitive) const;
     void bind(const prt::GlObject& program, std::size_t primitive) const;
 
     prt::Scene scene_;

@@ -88,6 +88,7 @@ void LoadedModel::set(std::shared_ptr<const prt::CompressedLightmap> of_all_texe
 LoadedModel load_model(const std::filesystem::path& path) {
     prt::pipeline::ReadingOptions reading;
     reading.shared = prt::pipeline::SharedTransfer::keep;
+    reading.leave_out_lobes = true;
     prt::pipeline::SceneFile file = prt::pipeline::load_scene_file(path, reading);
     LoadedModel loaded;
     if (file.instanced) {

@@ -70,15 +70,20 @@ public:
             for (std::size_t i = 0; i < arrays_.size(); ++i)
                 transfer_->attach(arrays_[i].name(), picture.scene->vertex_arrays[i].first_receiver);
             defines = transfer_->defines();
-        } else {
-            radiance_ = make_buffer(picture.radiance);
-            scene_.attach_receivers(arrays_, radiance_, PRT_LOCATION_RADIANCE, 3);
         }
+        std::string suns;
         if (!picture.suns.empty()) {
             shadows_.emplace(scene_);
-            defines += "#define PRT_SUNS\n";
+            suns = "#define PRT_SUNS\n";
         }
-        program_ = make_program("scene.vert", "scene.frag", defines);
+        if (defines.empty() || std::ranges::any_of(picture.scene->vertex_arrays, &VertexArray::lobes)) {
+            lit_arrays_ = scene_.make_vertex_arrays();
+            radiance_ = make_buffer(picture.radiance);
+            scene_.attach_receivers(lit_arrays_, radiance_, PRT_LOCATION_RADIANCE, 3);
+            lit_program_ = make_program("scene.vert", "scene.frag", suns);
+        }
+        if (!defines.empty())
+            program_ = make_program("scene.vert", "scene.frag", defines + suns);
     }
 
     Image render() {
@@ -90,7 +95,9 @@ public:
         glClearNamedFramebufferfv(target_.framebuffer.name(), GL_COLOR, 0, kBlack);
         glClearNamedFramebufferfv(target_.framebuffer.name(), GL_DEPTH, 0, &kFar);
         draw_background();
-        set_common_uniforms();
+        for (const GlObject* program : {&program_, &lit_program_})
+            if (program->name() != 0)
+                set_common_uniforms(*program);
         glEnable(GL_DEPTH_TEST);
         glDepthFunc(GL_LESS);
         draw_primitives();
@@ -133,29 +140,38 @@ private:
         glDrawArrays(GL_TRIANGLES, 0, 3);
     }
 
-    void set_common_uniforms() const {
-        glUseProgram(program_.name());
+    void set_common_uniforms(const GlObject& program) const {
+        glUseProgram(program.name());
         const float aspect = static_cast<float>(picture_.width) / static_cast<float>(picture_.height);
         const glm::mat4 matrix = view_projection(picture_.camera, bounds(*picture_.scene), aspect);
-        glUniformMatrix4fv(uniform(program_, "view_projection"), 1, GL_FALSE, glm::value_ptr(matrix));
-        glUniform1i(uniform(program_, "textured"), picture_.textured);
+        glUniformMatrix4fv(uniform(program, "view_projection"), 1, GL_FALSE, glm::value_ptr(matrix));
+        glUniform1i(uniform(program, "textured"), picture_.textured);
         if (transfer_)
             transfer_->use();
         if (shadows_)
             shadows_->use();
     }
 
+    /// Draws a primitive by light in the shader, or by the radiance of its vertices.
+    void draw(std::size_t p) {
+        const bool given = program_.name() == 0 ||
+                           picture_.scene->vertex_arrays[picture_.scene->primitives[p].vertices].lobes;
+        const GlObject& program = given ? lit_program_ : program_;
+        glUseProgram(program.name());
+        scene_.draw(program, given ? lit_arrays_ : arrays_, p);
+    }
+
     void draw_primitives() {
         for (std::size_t p = 0; p < picture_.scene->primitives.size(); ++p)
             if (!picture_.textured || !scene_.is_blended(picture_.scene->primitives[p]))
-                scene_.draw(program_, arrays_, p);
+                draw(p);
         if (!picture_.textured)
             return;
         glEnable(GL_BLEND);
         glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
         glDepthMask(GL_FALSE);
         for (const std::size_t p : scene_.blended_from_far(picture_.camera.position))
-            scene_.draw(program_, arrays_, p);
+            draw(p);
         glDepthMask(GL_TRUE);
         glDisable(GL_BLEND);
     }
@@ -168,7 +184,10 @@ private:
     std::optional<GlRelitTextures> lightmap_;
     std::vector<GlObject> maps_;
     std::optional<SunShadows> shadows_;
-    GlObject radiance_, program_;
+    GlVertexArrays lit_arrays_; ///< with `radiance_`
+    /// `program_` lights by transfer or lightmaps, `lit_program_` shows the radiance of vertices; either may
+    /// be empty.
+    GlObject radiance_, program_, lit_program_;
 };
 
 } // namespace

@@ -102,6 +102,11 @@ export class LitTransfer {
     return lamp ? this.strengths.get(lamp.name) : { value: new Vector3(1, 1, 1) };
   }
 
+  /** Returns the entries of `lamps` that exist here. */
+  knownOf(lamps) {
+    return Object.fromEntries(Object.entries(lamps).filter(([name]) => this.strengths.has(name)));
+  }
+
   setStrengths(lamps) {
     const given = Object.entries(lamps).map(([name, strength]) => [
       name,

@@ -93,6 +93,8 @@ export class PrtkitModel extends LitTransfer {
   readonly volume: PrtkitVolume | null;
   /** Instances that share the transfer of their mesh, if the file has any. */
   readonly instances: PrtkitInstances | null;
+  /** Figures that rotate with their skins, if the file also has lobes; they get the same light and are freed together. */
+  readonly figure: PrtkitLobes | null;
   /** Sets the occluders that darken surfaces near them; null: none. Throws an Error with WebGPURenderer. */
   setOccluders(occluders: PrtkitOccluders | null): void;
   /**
@@ -113,7 +115,7 @@ export class PrtkitInstances {
 
 /**
  * Transfer of a figure that rotates with its skin (PRTKIT_lobes): `gltf.userData.prtkit` of files from `prt
- * lobes`. Separate suns light it through three's directional lights and their shadow maps.
+ * lobes`, and `gltf.userData.prtkit.figure` if the file also has transfer of surfaces. Separate suns light it through three's directional lights and their shadow maps.
  */
 export class PrtkitLobes extends LitTransfer {
   /** Number of lobes per vertex, four bytes each. */

@@ -85,14 +85,14 @@ export class PrtkitPlugin {
   async afterRoot(gltf) {
     const { vertices, texels, probes } = this.sets;
     const lobes = this.parser.json.extensions?.[LOBES];
-    expect(!lobes || !(vertices || texels), "the file also has transfer that does not rotate with a skin", LOBES);
     const name = vertices || texels || probes ? TRANSFER : lobes && LOBES;
     expect(!name || gltf.scene, "the file has no scene", name);
     const occluders = await occludersOf(this.parser, gltf, (list) => this.viewsOf(list, OCCLUDERS));
     if (occluders.length > 0) gltf.userData.prtkitOccluders = new PrtkitOccluders(occluders);
     const volume = probes ? await this.volume(probes, gltf.scene) : null;
-    if (vertices || texels) gltf.userData.prtkit = Object.assign(await this.surfaces(vertices, texels, gltf), { volume });
-    else if (lobes) gltf.userData.prtkit = Object.assign(await this.lobesModel(lobes, gltf), { volume });
+    const figure = lobes ? await this.lobesModel(lobes, gltf) : null; // first: its meshes then have no other transfer
+    if (vertices || texels) gltf.userData.prtkit = Object.assign(await this.surfaces(vertices, texels, gltf), { volume, figure });
+    else if (figure) gltf.userData.prtkit = Object.assign(figure, { volume });
     else if (volume) gltf.userData.prtkit = volume;
     if (gltf.userData.prtkit) gltf.scenes.forEach(noteLightsOfFile);
   }

@@ -61,8 +61,9 @@ export class PrtkitLobes extends LitSurfaces {
     };
   }
 
-  /** Returns the transfer of `mesh`. */
+  /** Returns the transfer of `mesh`, null without lobes. */
   transferOf({ geometry }) {
+    if (!geometry.hasAttribute("_prt_lobe_0") && !this.converted.has(geometry)) return null;
     if (!this.converted.has(geometry)) {
       convertLobes(geometry, this.extension);
       this.vertices += geometry.getAttribute("position").count;

@@ -74,7 +74,7 @@ export class PrtkitModel extends LitSurfaces {
   /** Frees the tables. Materials and geometries are disposed of as three's are. */
   dispose() {
     this.sky = null;
-    this.volume?.dispose();
+    for (const other of this.others()) other.dispose();
     this.maps?.dispose();
     this.instances?.dispose();
     this.constantsTexture.dispose();

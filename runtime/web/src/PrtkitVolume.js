@@ -133,11 +133,6 @@ export class PrtkitVolume extends LitTransfer {
     return this.source.visibility.subarray(6 * probe, 6 * probe + 6).every((visibility) => visibility === 0);
   }
 
-  /** Returns the entries of `lamps` that the volume has. */
-  knownOf(lamps) {
-    return Object.fromEntries(Object.entries(lamps).filter(([name]) => this.strengths.has(name)));
-  }
-
   /**
    * Requests light, as coefficients in the space of the bake: it is computed when an object is drawn with it.
    */

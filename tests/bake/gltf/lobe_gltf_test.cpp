@@ -9,8 +9,10 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
+#include <algorithm>
+#include <numeric>
 #include <random>
+#include <set>
 
 namespace prt {
 namespace lobes_of_files { // joined sources share one scope
@@ -44,9 +46,17 @@ GlbFile two_triangles() {
     return file;
 }
 
+/// Returns the scene of `document`; its nodes `moving` get lobes.
+Scene with_figure(const GltfDocument& document, const std::set<int>& moving = {0, 1}) {
+    Scene scene = extract_scene(document);
+    for (const Primitive& primitive : scene.primitives)
+        scene.vertex_arrays[primitive.vertices].lobes = moving.contains(primitive.node);
+    return scene;
+}
+
 GlbFile with_lobes() {
     GltfDocument document = parsed(two_triangles());
-    write_lobes(document, extract_scene(document), any_lobes());
+    write_lobes(document, with_figure(document), any_lobes());
     return test::glb_of(encode_glb(document));
 }
 
@@ -72,29 +82,58 @@ GltfDocument read_again(const GltfDocument& document) {
     return parse_gltf(encode_glb(document), "memory.glb");
 }
 
-TEST(LobesOfFiles, ReplaceOtherTransferAndAreRemovedForIt) {
-    GltfDocument document = parsed(with_lobes());
+TEST(LobesOfFiles, ReplaceTheTransferOfTheirVertices) {
+    GltfDocument document = parsed(two_triangles());
     Scene scene = extract_scene(document);
     write_transfer(document, scene, {zero_transfer(2, 1, scene.receivers()), {}});
     document = read_again(document);
-    scene = extract_scene(document);
-    EXPECT_FALSE(read_lobes(document, scene));
-    EXPECT_TRUE(read_transfer(document, scene));
-    write_lobes(document, scene, any_lobes());
+    write_lobes(document, with_figure(document), any_lobes());
     document = read_again(document);
     scene = extract_scene(document);
     EXPECT_FALSE(read_transfer(document, scene));
     EXPECT_TRUE(read_lobes(document, scene));
     discard_transfer(document);
+    EXPECT_TRUE(read_lobes(document, scene));
+    discard_lobes(document);
     const GlbFile left = test::glb_of(encode_glb(document));
     EXPECT_FALSE(left.json.contains("extensionsUsed"));
     EXPECT_FALSE(left.json["meshes"][0]["primitives"][0]["attributes"].contains("_PRT_LOBE_0"));
 }
 
+/// The files have the same lobes at node 1, and the same transfer at node 0, whichever is written first.
+TEST(LobesOfFiles, AreBesideTheTransferOfOtherVertices) {
+    Transfer transfer = zero_transfer(2, 1, 6);
+    std::iota(transfer.vectors.begin(), transfer.vectors.end(), 1.0f);
+    std::vector<float> of_level = transfer.vectors;
+    std::fill(of_level.begin() + 12, of_level.end(), 0.0f);
+    std::vector<LobeWord> of_figure = any_lobes().model.words;
+    std::fill_n(of_figure.begin(), 6, LobeWord{});
+    for (const bool transfer_first : {true, false}) {
+        GltfDocument document = parsed(two_triangles());
+        if (transfer_first) {
+            write_transfer(document, extract_scene(document), {transfer, {}});
+            document = read_again(document);
+        }
+        write_lobes(document, with_figure(document, {1}), any_lobes());
+        document = read_again(document);
+        if (!transfer_first) {
+            write_transfer(document, extract_scene(document), {transfer, {}});
+            document = read_again(document);
+        }
+        const Scene scene = extract_scene(document);
+        EXPECT_EQ(read_transfer(document, scene).value().transfer.vectors, of_level);
+        EXPECT_EQ(read_lobes(document, scene).value().model.words, of_figure);
+        const GltfDocument level = parse_gltf(encode_glb(document), "memory.glb", {.leave_out_lobes = true});
+        EXPECT_EQ(read_transfer(level, extract_scene(level)).value().transfer.vectors,
+                  std::vector<float>(of_level.begin(), of_level.begin() + 12));
+        EXPECT_FALSE(read_lobes(level, extract_scene(level)));
+    }
+}
+
 TEST(LobesOfFiles, AreReadAfterTheVolumeIsDiscarded) {
     std::mt19937 random(3);
     GltfDocument document = parsed(test::with_volume(two_triangles(), test::random_volume(2, false, random)));
-    write_lobes(document, extract_scene(document), any_lobes());
+    write_lobes(document, with_figure(document), any_lobes());
     document = read_again(document); // the views of the volume are before those of the lobes
     const Scene scene = extract_scene(document);
     discard_volume(document);

@@ -239,7 +239,9 @@ TEST_F(FigureTest, FollowsTheLightLikeTheScene) {
 GlbFile ball_with_lobes(std::uint8_t share) {
     const std::string bare = ball_figure().bytes();
     prt::GltfDocument document = prt::parse_gltf(std::as_bytes(std::span(bare)), "ball.glb");
-    const prt::Scene scene = prt::extract_scene(document);
+    prt::Scene scene = prt::extract_scene(document);
+    for (prt::VertexArray& vertices : scene.vertex_arrays)
+        vertices.lobes = true;
     prt::StoredLobes lobes;
     lobes.model.order = 4;
     lobes.model.lobes = 1;

@@ -70,6 +70,9 @@ struct LightmapBake {
 LightmapBake bake_lightmap(const Scene& scene, const std::vector<Atlas>& atlases, const BakeOptions& options,
                            const FinerModel& finer = {}, const Progress& progress = {});
 
+/// Returns the atlases with which a lightmap was baked.
+std::vector<Atlas> atlases_of(const LightmapLayout& layout);
+
 /// Returns points on the UV seams of `scene`, at least two per texel along each seam, whose jumps the
 /// compressor minimises. `texels` [receivers]: numbers of the lightmap's texels with transfer, in ascending
 /// order, as in BakedLightmap::texels. Seams between different normals, and points whose bilinear filters

@@ -37,6 +37,10 @@ std::vector<ModelPose> poses_of(const AnimatedScene& model, int count, const std
 /// with this name, and for a count below 1.
 std::vector<ModelPose> frames_of(const AnimatedScene& model, int count, const std::string& only = {});
 
+/// Returns whether the vertices of each array move or can move, [Scene::vertex_arrays]: with a skin, with
+/// morph targets, or because their node has different matrices in `poses`.
+std::vector<bool> moving_arrays(const AnimatedScene& model, std::span<const ModelPose> poses);
+
 /// Settings of the bake of each pose.
 struct PoseBakeOptions {
     int order = 4;   ///< order of the transfer, 1..kMaxOrder

@@ -25,6 +25,7 @@ struct TexelOptions {
                           ///< is 0, then finite and greater than 0; a texture has at least 4 texels per side
     int uv_set = 1;       ///< n of the existing UV set TEXCOORD_n; `unwrap` ignores it
     AtlasMode atlases = AtlasMode::automatic; ///< surfaces that share a texture
+    bool leave_out_lobes = false; ///< whether surfaces with lobes (VertexArray::lobes) get no texels
 };
 
 inline constexpr int kMaxTexels = 8192; ///< maximum number of texels per side of a texture
@@ -44,6 +45,9 @@ struct Atlas {
 inline LightmapSize size_of(const Atlas& atlas) {
     return {atlas.width, atlas.height, atlas.repeats};
 }
+
+/// Returns the primitives that get texels, in ascending order.
+std::vector<std::size_t> surfaces_with_texels(const Scene& scene, const TexelOptions& options);
 
 /// Returns square textures that together contain every primitive of `scene` once, with their existing UV set.
 /// `scene` must have a triangle. Throws `Error` for options out of range, for primitives without this UV set,

@@ -141,7 +141,8 @@ typedef struct prt_model prt_model;
 
 /* Loads a model from a .glb file and writes its handle to *model; the caller destroys it with
  * prt_model_destroy. The file must contain all of its data, without Draco compression; prt compress writes
- * such files. For other files returns PRT_BAD_FILE. If loading fails, *model is null. */
+ * such files. For other files returns PRT_BAD_FILE. If loading fails, *model is null. Figures with lobes are
+ * left out. */
 PRT_API prt_status prt_model_load(const char* path, prt_model** model, prt_message* message);
 /* Loads a model from a .glb file in memory, `size` bytes at `bytes`, and writes its handle to *model; the
  * caller destroys it with prt_model_destroy. If loading fails, *model is null. The caller may free `bytes`

@@ -29,9 +29,12 @@ struct LightmapSize {
     friend bool operator==(const LightmapSize&, const LightmapSize&) = default;
 };
 
+/// LightmapPlacement::map of a primitive without texels, which has lobes instead.
+inline constexpr std::size_t kNoMap = static_cast<std::size_t>(-1);
+
 /// Lightmap and UV set of one primitive.
 struct LightmapPlacement {
-    std::size_t map = 0; ///< index in `LightmapLayout::maps`
+    std::size_t map = 0; ///< index in `LightmapLayout::maps`, or kNoMap
     int texcoord = 1;    ///< n of the vertex attribute TEXCOORD_n that contains the UVs
 
     friend bool operator==(const LightmapPlacement&, const LightmapPlacement&) = default;

@@ -52,6 +52,9 @@ struct GltfOptions {
     /// the scene is one of these files. Empty: no check.
     std::vector<std::filesystem::path> outputs = {};
     Instancing instancing = Instancing::nodes; ///< representation of instances that share transfer
+    /// Whether scenes leave out primitives with lobes (VertexArray::lobes), so that all receivers have
+    /// transfer. No effect on a file without transfer of surfaces.
+    bool leave_out_lobes = false;
     /// Factor on the intensity of all lights of KHR_lights_punctual. Changes the document; saved files
     /// contain the new intensities. Exporters write candela and lux; 1 / 683 converts these to W/sr and W/m².
     double lamp_scale = 1;
@@ -90,15 +93,16 @@ GltfDocument parse_gltf(std::span<const std::byte> file, const std::filesystem::
 Scene extract_scene(const GltfDocument& document);
 
 /// Writes raw transfer of vertices (PRTKIT_transfer) into `document`, from which `scene` was extracted.
-/// First removes what `discard_transfer` removes. Changes the meshes: a mesh that several nodes draw is
+/// First removes what `discard_transfer` removes. Writes no transfer for vertices that have lobes
+/// (VertexArray::lobes). Changes the meshes: a mesh that several nodes draw is
 /// copied for each node, and primitives without normals get flat normals. Per document, call at most one
 /// function that changes meshes. Throws `Error` if the copies exceed the memory limit of docs/format.md.
 void write_transfer(GltfDocument& document, const Scene& scene, const BakedTransfer& baked);
 
 /// Writes compressed transfer of vertices (PRTKIT_transfer) into `document`, from which `scene` was
-/// extracted. First removes what `discard_transfer` removes. Changes the meshes as
-/// `write_transfer` does; per document, call at most one function that changes meshes. Throws the errors of
-/// `write_transfer`.
+/// extracted. First removes what `discard_transfer` removes. Writes no transfer for vertices that have lobes.
+/// Changes the meshes as `write_transfer` does; per document, call at most one function that changes meshes.
+/// Throws the errors of `write_transfer`.
 void write_clustered(GltfDocument& document, const Scene& scene, const CompressedTransfer& compressed);
 
 /// Returns the raw transfer of vertices in `document`, from which `scene` was extracted. Returns no value if
@@ -160,10 +164,13 @@ struct SurfaceTexture {
 std::size_t write_surface_textures(GltfDocument& document, const Scene& scene,
                                    std::span<const SurfaceTexture> textures);
 
-/// Removes the transfer of vertices and lightmaps, the lobes of skinned figures, and PRTKIT_instances from
-/// `document`, with their data, and frees the memory. Keeps PRTKIT_instances if the document was read with
-/// `Instancing::separate`. Keeps probe volumes and occlusion volumes.
+/// Removes the transfer of vertices and lightmaps, and PRTKIT_instances from `document`, with their data, and
+/// frees the memory. Keeps PRTKIT_instances if the document was read with `Instancing::separate`. Keeps
+/// lobes, probe volumes and occlusion volumes.
 void discard_transfer(GltfDocument& document);
+
+/// Removes the lobes of figures from `document`, and frees the memory.
+void discard_lobes(GltfDocument& document);
 
 /// Compression of vertex and index data in a .glb file.
 enum class BufferCompression {

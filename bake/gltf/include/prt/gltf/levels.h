@@ -56,8 +56,8 @@ bool has_levels(const GltfDocument& document);
 /// vertices and triangles of coarser levels.
 LeveledScene extract_levels(const GltfDocument& document);
 
-/// Returns whether the file has raw or compressed transfer of vertices, or lobes, for at least one primitive
-/// of a coarser level. `scene` was extracted from `document` by `extract_levels`.
+/// Returns whether the file has raw or compressed transfer of vertices for at least one primitive of a
+/// coarser level. `scene` was extracted from `document` by `extract_levels`.
 bool levels_have_transfer(const GltfDocument& document, const LeveledScene& scene);
 
 /// Returns the number of vertices of the vertex arrays that `primitives` use; an array that several

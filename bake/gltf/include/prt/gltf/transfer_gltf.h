@@ -129,8 +129,9 @@ Transfer expanded(const GltfDocument& document, const Scene& scene, const Scene&
                   const Transfer& transfer, int threads = 0);
 
 /// Writes raw transfer of texels into `document`, from which `scene` was extracted. Removes all existing
-/// transfer of surfaces: of vertices, of texels, and lobes. Changes the meshes as `write_transfer` does; call
-/// only one function that changes the meshes per document. Throws the errors of `write_transfer`.
+/// transfer of surfaces, except lobes; surfaces with lobes get no texels. Changes the meshes as
+/// `write_transfer` does; call only one function that changes the meshes per document. Throws the errors of
+/// `write_transfer`.
 void write_lightmap(GltfDocument& document, const Scene& scene, const BakedLightmap& lightmap);
 
 /// Returns the raw transfer of texels in the file; empty if the file has no lightmap or a compressed one.
@@ -167,14 +168,19 @@ std::optional<CompressedVolume> read_compressed_volume(const GltfDocument& docum
 /// volume.
 void discard_volume(GltfDocument& document);
 
-/// Writes lobes into `document`, from which `scene` was extracted. Removes all other transfer of surfaces
-/// (vertices and lightmaps), because other transfer is valid for a single pose only. Changes the meshes as
-/// `write_transfer` does; call only one function that changes the meshes per document. Throws the errors of
-/// `check_lobes` and `write_transfer`.
+/// Writes lobes of the vertex arrays with VertexArray::lobes into `document`, from which `scene` was
+/// extracted (the caller can change VertexArray::lobes). Replaces all existing lobes, and the transfer of
+/// these vertices in vertices, lightmaps and shared instances, which is valid for a single pose only; keeps
+/// all other transfer. Changes the meshes of these vertices as `write_transfer` does; call only one function
+/// that changes the meshes per document. Throws the errors of `check_lobes` and `write_transfer`.
 void write_lobes(GltfDocument& document, const Scene& scene, const StoredLobes& lobes);
 
-/// Returns the lobes in the file; empty if the file has no lobes. `scene` was extracted from `document`.
-/// Throws `Error` if the lobes are damaged, too large or of another version.
+/// Returns whether the file has lobes. Does not read them.
+bool has_lobes(const GltfDocument& document);
+
+/// Returns the lobes in the file, with words of 0 for vertices without lobes; empty if the file has no lobes.
+/// `scene` was extracted from `document`. Throws `Error` if the lobes are damaged, too large or of another
+/// version.
 std::optional<StoredLobes> read_lobes(const GltfDocument& document, const Scene& scene);
 
 /// Removes all occlusion volumes from `document`, then writes `occluders`, which contain at most one for each

@@ -95,12 +95,13 @@ struct Model {
     /// and `double_sided`; there are no textures, images and lights. With instances that share transfer, each
     /// shared mesh occurs once, in its own frame.
     Scene scene;
-    std::optional<CompressedTransfer> vertices; ///< transfer of the vertices of `scene`
+    std::optional<CompressedTransfer>
+        vertices; ///< transfer of vertices of `scene` without VertexArray::lobes
     /// Transfer of texels. `decoded_lightmap` of prt/render/lightmap_file.h decodes the images.
     std::optional<EncodedLightmap> lightmap;
     std::optional<CompressedVolume> volume; ///< transfer of probes; its grid is relative to Scene::origin
     std::vector<FileInstance> instances;    ///< instances that share transfer, in ascending order of nodes
-    std::optional<StoredLobes> lobes;       ///< lobes of the vertices of `scene`
+    std::optional<StoredLobes> lobes;       ///< lobes of the vertices of `scene` with VertexArray::lobes
     std::vector<NodeOccluder> occluders;    ///< occlusion volumes, in ascending order of nodes
 };
 

@@ -131,6 +131,9 @@ struct VertexArray {
     std::vector<std::uint32_t> source;
     std::size_t first_receiver = 0; ///< index of the receiver of vertex 0; vertex v is receiver
                                     ///< first_receiver + v
+    /// Whether the file has lobes for these vertices (prt/core/lobes.h). They then have no transfer: that of
+    /// their receivers is 0 if it is raw, and undefined if it is compressed.
+    bool lobes = false;
 
     /// Returns the number of vertices.
     std::size_t size() const { return positions.size(); }
@@ -229,6 +232,7 @@ struct MovingVertices {
     /// [vertices][influences] weight of each matrix, 0 or more; the sum per vertex is above 0, but may differ
     /// from 1. Weight 0: ignore the matrix index. Empty without a skin.
     std::vector<float> weights;
+    bool morphs = false; ///< whether the file has morph targets for the vertices
 };
 
 /// Returns the matrix from the frame of the mesh to the world for one vertex: with a skin, the weighted mean

@@ -33,7 +33,8 @@ struct PictureLightmaps {
     const Lighting* lighting = nullptr; ///< used only with `on_gpu`; must then not be null
 };
 
-/// Light that a renderer computes from transfer or reads from lightmaps. Owns nothing.
+/// Light that a renderer computes from transfer or reads from lightmaps. Owns nothing. Surfaces with lobes
+/// (VertexArray::lobes) have neither, and show `Picture::radiance`.
 struct LitInShader {
     /// If not null, and without lightmaps, the OpenGL renderer computes exit radiance in the vertex shader
     /// from this transfer and `lighting`. Other renderers ignore this member.
@@ -50,7 +51,7 @@ struct Picture {
 
     /// [receivers of the scene] exit radiance for albedo 1 in linear Rec. 709, or a color to show. All
     /// renderers ignore this member if `in_shader.lightmaps` is set. The OpenGL renderer ignores this member
-    /// if `in_shader.transfer` is set.
+    /// if `in_shader.transfer` is set. Surfaces with lobes always use it.
     std::span<const glm::vec3> radiance;
     /// Transfer or lightmaps that replace `radiance`; by default not set.
     LitInShader in_shader;

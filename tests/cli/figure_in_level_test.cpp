@@ -1,0 +1,299 @@
+// Tests files with transfer of a level and lobes of a figure that moves in it.
+
+#include "cli/pipeline/model.h"
+#include "pipeline.h"
+#include "prt/core/clustered_transfer.h"
+#include "prt/load/model.h"
+#include "support/glb_file.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace prt::test {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using pipeline::SceneFile;
+
+/// Adds a mesh with a grid of 3 x 3 vertices on the unit square at z = 0, and texture coordinates that start
+/// at `u`.
+Json& add_square(GlbFile& file, float u) {
+    std::vector<float> positions, normals, texcoords;
+    for (int i = 0; i < 9; ++i) {
+        const float x = static_cast<float>(i % 3) / 2, y = static_cast<float>(i / 3) / 2;
+        positions.insert(positions.end(), {x - 0.5f, y, 0});
+        normals.insert(normals.end(), {0, 0, 1});
+        texcoords.insert(texcoords.end(), {u + 0.2f * x, 0.2f + 0.5f * y});
+    }
+    std::vector<std::uint16_t> indices;
+    for (const int i : {0, 1, 3, 4})
+        for (const int corner : {0, 1, 4, 0, 4, 3})
+            indices.push_back(static_cast<std::uint16_t>(i + corner));
+    const auto uv = file.accessor(texcoords, kFloat, "VEC2", 2);
+    const Json primitive = {{"attributes",
+                             {{"POSITION", file.accessor(positions, kFloat, "VEC3", 3)},
+                              {"NORMAL", file.accessor(normals, kFloat, "VEC3", 3)},
+                              {"TEXCOORD_0", uv},
+                              {"TEXCOORD_1", uv}}},
+                            {"indices", file.accessor(indices, kUnsignedShort, "SCALAR", 1)},
+                            {"material", 0}};
+    file.json["meshes"].push_back({{"primitives", Json::array({primitive})}});
+    return file.json["meshes"].back()["primitives"][0];
+}
+
+/// Returns a floor, two cards that share a mesh, and a bending figure between them.
+GlbFile level() {
+    GlbFile file;
+    add_square(file, 0);
+    add_square(file, 0.3f);
+    Json& figure = add_square(file, 0.6f);
+    std::vector<std::uint8_t> joints;
+    std::vector<float> weights;
+    for (int i = 0; i < 9; ++i) {
+        joints.insert(joints.end(), {static_cast<std::uint8_t>(i / 6), 0, 0, 0});
+        weights.insert(weights.end(), {1, 0, 0, 0});
+    }
+    figure["attributes"]["JOINTS_0"] = file.accessor(joints, kUnsignedByte, "VEC4", 4);
+    figure["attributes"]["WEIGHTS_0"] = file.accessor(weights, kFloat, "VEC4", 4);
+    file.json["materials"] =
+        Json::array({{{"doubleSided", true}, {"pbrMetallicRoughness", {{"metallicFactor", 0}}}}});
+    const float half = 0.70710678f;
+    file.json["nodes"] = {
+        {{"mesh", 0}, {"rotation", {-half, 0, 0, half}}, {"scale", {4, 4, 4}}, {"translation", {0, 0, 2}}},
+        {{"mesh", 1}, {"translation", {-0.8f, 0, -0.5f}}},
+        {{"mesh", 1}, {"translation", {0.8f, 0, -0.5f}}},
+        {{"mesh", 2}, {"skin", 0}},
+        {{"children", {5}}},
+        {{"name", "upper"}}};
+    file.json["skins"] = Json::array({{{"joints", {4, 5}}}});
+    file.json["scenes"] = Json::array({{{"nodes", {0, 1, 2, 3, 4}}}});
+    file.json["scene"] = 0;
+    const auto times = file.accessor(std::vector<float>{0, 1}, kFloat, "SCALAR", 1),
+               rotations = file.accessor(std::vector<float>{0, 0, 0, 1, 0.3826834f, 0, 0, 0.9238795f}, kFloat,
+                                         "VEC4", 4);
+    file.json["animations"] = Json::array(
+        {{{"name", "bend"},
+          {"samplers", Json::array({{{"input", times}, {"output", rotations}}})},
+          {"channels", Json::array({{{"sampler", 0}, {"target", {{"node", 5}, {"path", "rotation"}}}}})}}});
+    return file;
+}
+
+/// Settings of a compression that takes little time.
+const std::vector<std::string> kSmall = {"--preset", "custom", "--clusters", "2", "--components", "3"};
+
+class FigureInLevel : public Pipeline {
+protected:
+    void SetUp() override { level().write(folder / "level.glb"); }
+
+    Outcome make(const char* command, const char* from, const char* to,
+                 const std::vector<std::string>& options) {
+        std::vector<std::string> all = {command, at(from), "-o", at(to)};
+        all.insert(all.end(), options.begin(), options.end());
+        Outcome outcome = prt(all);
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        return outcome;
+    }
+    Outcome bake(const char* from, const char* to, std::vector<std::string> options = {}) {
+        const bool texels = std::ranges::find(options, "--texels") != options.end();
+        options.insert(options.end(),
+                       {"--order", "3", "--rays", "32", "--bounces", "1", "--back-sides", "shared"});
+        if (!texels)
+            options.insert(options.end(), {"--fit", "vertex"});
+        return make("bake", from, to, options);
+    }
+    Outcome lobes(const char* from, const char* to) {
+        return make("lobes", from, to,
+                    {"--order", "3", "--rays", "32", "--poses", "1", "--poses", "frames=0", "--lobes", "1"});
+    }
+    SceneFile open(const char* name) const { return pipeline::load_scene_file(folder / name); }
+
+    /// Draws a model to pixels.
+    std::vector<glm::vec3> picture(const char* model, const char* device) {
+        const Outcome drawn = prt({"render", at(model), "--lights", at("sky.exr"), "-o", at("p.exr"),
+                                   "--size", "64x32", "--camera", "0.5,1.5,4", "--look-at", "0,0.4,0",
+                                   "--no-background", "--suns", "0", "--samples", "1", "--device", device});
+        EXPECT_EQ(drawn.status, 0) << drawn.err;
+        return load_environment(folder / "p.exr").environment.image.pixels;
+    }
+    /// Expects that each pixel of `both` is that of `level` or of `figure`, and that both occur.
+    void expect_joined(const char* both, const char* level, const char* figure, const char* device) {
+        const auto pixels = picture(both, device), static_pixels = picture(level, device),
+                   moving = picture(figure, device);
+        std::size_t of_level = 0, of_figure = 0;
+        for (std::size_t i = 0; i < pixels.size(); ++i) {
+            const bool a = glm::distance(pixels[i], static_pixels[i]) < 1e-4f,
+                       b = glm::distance(pixels[i], moving[i]) < 1e-4f;
+            EXPECT_TRUE(a || b) << both << ", pixel " << i << " " << device;
+            of_level += a && !b;
+            of_figure += b && !a;
+        }
+        EXPECT_GT(of_level, 20u) << both;
+        EXPECT_GT(of_figure, 5u) << both;
+    }
+};
+
+/// Returns which receivers have lobes.
+std::vector<bool> figure_of(const Scene& scene) {
+    std::vector<bool> figure;
+    for (const VertexArray& vertices : scene.vertex_arrays)
+        figure.insert(figure.end(), vertices.size(), vertices.lobes);
+    return figure;
+}
+
+void expect_same_lobes(const SceneFile& a, const SceneFile& b) {
+    ASSERT_TRUE(a.lobes && b.lobes);
+    EXPECT_EQ(a.lobes->model.words, b.lobes->model.words);
+    EXPECT_EQ(a.lobes->model.profiles, b.lobes->model.profiles);
+    EXPECT_EQ(figure_of(a.scene), figure_of(b.scene));
+}
+
+/// Expects the same raw transfer at receivers without lobes, and none at the others.
+void expect_same_transfer(const SceneFile& both, const SceneFile& level) {
+    ASSERT_TRUE(both.baked && level.baked);
+    const std::vector<bool> figure = figure_of(both.scene);
+    ASSERT_EQ(figure.size(), level.scene.receivers());
+    EXPECT_EQ(std::ranges::count(figure, true), 9);
+    for (std::size_t p = 0; p < figure.size(); ++p) {
+        const auto here = both.baked->transfer.vector(p), expected = level.baked->transfer.vector(p);
+        if (figure[p])
+            EXPECT_TRUE(std::ranges::all_of(here, [](float value) { return value == 0; })) << p;
+        else
+            EXPECT_TRUE(std::ranges::equal(here, expected)) << p;
+    }
+}
+
+TEST_F(FigureInLevel, KeepsTransferAndLobesInBothOrders) {
+    for (const std::vector<std::string>& options : {std::vector<std::string>{"--instances", "own"},
+                                                    {"--instances", "shared", "--instances", "error=50"}}) {
+        bake("level.glb", "baked.glb", options);
+        lobes("baked.glb", "one.glb");
+        lobes("level.glb", "figure.glb");
+        const Outcome outcome = bake("figure.glb", "other.glb", options);
+        EXPECT_NE(outcome.err.find("9 vertices keep their lobes"), std::string::npos) << outcome.err;
+        const SceneFile baked = open("baked.glb"), one = open("one.glb"), other = open("other.glb");
+        EXPECT_EQ(one.instanced.has_value(), options[1] == "shared");
+        EXPECT_EQ(other.instanced.has_value(), options[1] == "shared");
+        expect_same_transfer(one, baked);
+        expect_same_transfer(other, baked);
+        expect_same_lobes(one, other);
+        expect_same_lobes(one, open("figure.glb"));
+        EXPECT_LE(validator_errors(folder / "one.glb"), 0);
+        EXPECT_LE(validator_errors(folder / "other.glb"), 0);
+    }
+}
+
+TEST_F(FigureInLevel, IsNotRefinedWithItsLevel) {
+    lobes("level.glb", "figure.glb");
+    make("bake", "figure.glb", "both.glb",
+         {"--order", "3", "--rays", "64", "--refine", "0.03,vertices=200", "--back-sides", "shared"});
+    const SceneFile figure = open("figure.glb"), both = open("both.glb");
+    ASSERT_TRUE(both.lobes && both.baked);
+    EXPECT_EQ(both.lobes->model.words, figure.lobes->model.words);
+    EXPECT_EQ(std::ranges::count(figure_of(both.scene), true), 9);
+    EXPECT_GT(both.scene.receivers(), figure.scene.receivers());
+    EXPECT_LE(validator_errors(folder / "both.glb"), 0);
+}
+
+TEST_F(FigureInLevel, IsCompressedWithoutChangingTheLobes) {
+    for (const std::vector<std::string>& options : {std::vector<std::string>{},
+                                                    {"--instances", "shared", "--instances", "error=50"},
+                                                    {"--texels", "16"}}) {
+        const bool texels = !options.empty() && options[0] == "--texels";
+        bake("level.glb", "baked.glb", options);
+        lobes("baked.glb", "both.glb");
+        make("compress", "baked.glb", "small.glb", kSmall);
+        lobes("small.glb", "one.glb");
+        std::vector<std::string> meshopt = kSmall;
+        meshopt.push_back("--meshopt");
+        make("compress", "both.glb", "other.glb", meshopt);
+        const SceneFile small = open("small.glb"), one = open("one.glb"), other = open("other.glb");
+        expect_same_lobes(one, other);
+        const auto transfer = [&](const SceneFile& file) {
+            return file.compressed ? decode(file.compressed->transfer) : file.baked->transfer;
+        };
+        const Transfer before = transfer(small), after = transfer(one);
+        const std::vector<bool> figure = figure_of(one.scene);
+        for (std::size_t p = 0; p < before.receivers(); ++p)
+            if (texels || !figure[p])
+                EXPECT_TRUE(std::ranges::equal(before.vector(p), after.vector(p))) << p;
+        EXPECT_EQ(prt({"evaluate", at("both.glb"), at("other.glb")}).status, 0);
+        const Model loaded = load_model(folder / "other.glb");
+        ASSERT_TRUE(loaded.lobes);
+        EXPECT_TRUE(texels ? loaded.lightmap.has_value() : loaded.vertices.has_value());
+        for (const VertexArray& vertices : loaded.scene.vertex_arrays)
+            for (std::size_t v = 0; v < vertices.size(); ++v)
+                EXPECT_EQ(loaded.lobes->model.words[vertices.first_receiver + v] != LobeWord{},
+                          vertices.lobes);
+        const Outcome info = prt({"info", at("other.glb")});
+        EXPECT_NE(info.out.find("9 vertices"), std::string::npos) << info.out;
+        EXPECT_NE(info.out.find("clustered PCA"), std::string::npos) << info.out;
+        EXPECT_EQ(prt({"shader", at("other.glb"), "-o", at("v.glsl")}).status, 0);
+        EXPECT_EQ(prt({"shader", at("other.glb"), "-o", at("l.glsl"), "--stage", "lobes"}).status, 0);
+        EXPECT_LE(validator_errors(folder / "other.glb"), 0);
+    }
+}
+
+TEST_F(FigureInLevel, IsLitAsInTwoFiles) {
+    std::vector<glm::vec3> sky(32, glm::vec3(0.1f));
+    std::fill_n(sky.begin(), 12, glm::vec3(1, 0.8f, 0.6f));
+    write_exr(folder / "sky.exr", {8, 4, sky});
+    lobes("level.glb", "figure.glb");
+    for (const std::vector<std::string>& options : {std::vector<std::string>{}, {"--texels", "16"}}) {
+        bake("figure.glb", "both.glb", options);
+        bake("level.glb", "baked.glb", options);
+        make("compress", "baked.glb", "small_level.glb", kSmall);
+        lobes("small_level.glb", "small.glb");
+        for (const char* device : {"cpu", "gpu"}) {
+            expect_joined("both.glb", "baked.glb", "figure.glb", device);
+            expect_joined("small.glb", "small_level.glb", "figure.glb", device);
+        }
+    }
+}
+
+TEST_F(FigureInLevel, GetsColorsOfBoth) {
+    bake("level.glb", "baked.glb");
+    lobes("baked.glb", "both.glb");
+    write_exr(folder / "sky.exr", {8, 4, std::vector<glm::vec3>(32, glm::vec3(1))});
+    const auto colors = [&](const char* model) {
+        make("relight", model, "colors.glb", {"--lights", at("sky.exr")});
+        std::vector<glm::vec3> result;
+        const GltfDocument document = load_gltf(folder / "colors.glb");
+        EXPECT_FALSE(has_lobes(document));
+        for (const VertexArray& vertices : extract_scene(document).vertex_arrays)
+            for (const glm::vec4& color : vertices.colors)
+                result.emplace_back(color);
+        return result;
+    };
+    const auto both = colors("both.glb"), baked = colors("baked.glb");
+    const std::vector<bool> figure = figure_of(open("both.glb").scene);
+    ASSERT_EQ(both.size(), figure.size());
+    for (std::size_t p = 0; p < figure.size(); ++p)
+        EXPECT_LT(glm::distance(both[p], baked[p]), figure[p] ? 0.3f : 1e-6f) << p; // noise, few bands
+}
+
+TEST_F(FigureInLevel, LosesItsLobesOnlyIfRequested) {
+    lobes("level.glb", "figure.glb");
+    bake("level.glb", "baked.glb");
+    bake("figure.glb", "again.glb", {"--stored-lobes", "remove"});
+    const SceneFile again = open("again.glb");
+    EXPECT_FALSE(again.lobes);
+    EXPECT_EQ(again.baked->transfer.vectors, open("baked.glb").baked->transfer.vectors);
+    const Outcome refined =
+        prt({"bake", at("figure.glb"), "-o", at("x.glb"), "--refine", "0.1", "--rays", "8"});
+    EXPECT_EQ(refined.status, 1);
+    EXPECT_NE(refined.err.find("run prt lobes after prt bake --refine"), std::string::npos) << refined.err;
+    GlbFile alone = level();
+    alone.json["scenes"][0]["nodes"] = {3, 4};
+    alone.write(folder / "alone.glb");
+    lobes("alone.glb", "alone.glb.glb");
+    const Outcome nothing = prt({"bake", at("alone.glb.glb"), "-o", at("x.glb"), "--rays", "8"});
+    EXPECT_EQ(nothing.status, 1);
+    EXPECT_NE(nothing.err.find("all vertices have lobes"), std::string::npos) << nothing.err;
+}
+
+} // namespace
+} // namespace prt::test
