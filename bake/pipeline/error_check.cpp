@@ -131,7 +131,7 @@ void ErrorCheck::choose_points(Tracer& tracer, const Measured& measured, const s
     for (std::size_t s = 0; s < some.size(); ++s) {
         const SamplePosition& position = some.positions[s];
         const glm::uvec3 corners = corner_receivers(surfaces, *plan_.transport, position.triangle, false);
-        bool known = true;
+        bool known = !surfaces.has_lobes(position.triangle);
         for (int i = 0; i < 3; ++i)
             known = known && corners[i] != kNoReceiver && !in_medium[corners[i]];
         const float seen = surfaces.coverage({position.triangle, position.uv, 0});

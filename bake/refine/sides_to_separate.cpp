@@ -29,9 +29,8 @@ constexpr double kMajority = 0.5;
 
 bool can_separate(const Surfaces& surfaces, std::uint32_t t) {
     const Material& material = surfaces.material(t);
-    const Primitive& primitive = surfaces.scene().primitives[surfaces.primitive(t)];
-    return !surfaces.scene().vertex_arrays[primitive.vertices].lobes && material.double_sided &&
-           material.alpha_mode != AlphaMode::blend && !surfaces.solid(t);
+    return !surfaces.has_lobes(t) && material.double_sided && material.alpha_mode != AlphaMode::blend &&
+           !surfaces.solid(t);
 }
 
 /// Groups connected receivers: receivers connected by `triangles`, and corners of one vertex array at the

@@ -37,15 +37,24 @@ void DetailedSurface::move(Receivers& receivers, std::size_t first) const {
         position += from_scene_;
         if (normal == glm::vec3(0))
             continue;
+        bool opaque_backs = false;
         const auto side = [&](unsigned triangle) { // 1: front, -1: back, 0: does not face the same way
             const float cosine = glm::dot(plane_of(vertices_.positions, surfaces.corners(triangle)), normal);
-            return cosine > 0 ? 1.0f : cosine < 0 && surfaces.transmits(triangle) ? -1.0f : 0.0f;
+            const bool back =
+                surfaces.transmits(triangle) || (opaque_backs && surfaces.material(triangle).double_sided);
+            return cosine > 0 ? 1.0f : cosine < 0 && back ? -1.0f : 0.0f;
         };
         const float unit = std::max(model_.rays().surface_offset(position), kOffBorder * reach);
         const glm::vec3 from = position + unit * receivers.starts[p];
-        const std::optional<RayHit> hit =
-            model_.rays().nearest({from + reach * normal, -normal, 0, 2 * reach},
-                                  [&](unsigned triangle) { return side(triangle) != 0; });
+        const auto nearest = [&] {
+            return model_.rays().nearest({from + reach * normal, -normal, 0, 2 * reach},
+                                         [&](unsigned triangle) { return side(triangle) != 0; });
+        };
+        std::optional<RayHit> hit = nearest();
+        if (!hit) { // the receiver can be on the back of a double-sided surface
+            opaque_backs = true;
+            hit = nearest();
+        }
         ++searched_;
         if (!hit) {
             ++missing_;

@@ -21,8 +21,8 @@ public:
 
     /// Moves the receivers from index `first` on to the outermost surface within reach along their normals
     /// that faces the same way, and replaces their normals and `starts`. Thin sheets that transmit light face
-    /// both ways. Other receivers keep their position. All positions become relative to the origin of the
-    /// model. `starts` must be filled.
+    /// both ways, as do double-sided surfaces where no front is in reach. Other receivers keep their
+    /// position. All positions become relative to the origin of the model. `starts` must be filled.
     void move(Receivers& receivers, std::size_t first = 0) const;
     /// Returns a notice if many of the receivers so far found no surface, otherwise no value. Throws `Error`
     /// if no receiver found one, because the model then has other surfaces.

@@ -530,6 +530,7 @@ void run(BakeArguments a, Session& session) {
     GltfDocument document = load_document(a);
     Scene scene = extract_scene(document);
     read_occluders(document); // which it passes on
+    read_lobes(document, scene);
     print_notices(a.scene.string(), scene.notices);
     check_lobes_of(a, scene);
     a.finer.high_poly = load_high_poly(a.texels, a.reading, scene);

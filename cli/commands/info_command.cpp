@@ -149,11 +149,11 @@ void add_instances(const InstancedModel& file, Report& report) {
     const std::size_t lamps = file.instances.empty() ? 0 : file.instances.front().placed.lamps.size(),
                       bytes = kInstanceNumbers + lamps * kLampLightBytes;
     Json figures = {{"count", file.instances.size()},
-                    {"vertices_stored", file.stored.receivers()},
+                    {"vertices_stored", vertices_without_lobes(file.stored)},
                     {"bytes_per_instance", bytes}};
-    report.sentences.emplace_back("{instances/count} instances share the transfer of their meshes, by "
-                                  "{instances/bytes_per_instance} bytes each; {instances/vertices_stored} "
-                                  "vertices have transfer");
+    report.sentences.emplace_back("instances that share the transfer of their meshes: {instances/count}, by "
+                                  "{instances/bytes_per_instance} bytes each; "
+                                  "{instances/vertices_stored:#vertex has|vertices have} transfer");
     if (file.compressed) {
         add_instance_constants(relit_instances(file), std::move(figures), report);
         return;

@@ -191,6 +191,19 @@ void note_the_rest(const LobesArguments& a, const Scene& scene, const Made& made
                        " not move and have no transfer; prt bake bakes it, before or after prt lobes"});
 }
 
+/// Throws `Error` if vertices have lobes in the file, but not in `scene`: they would have no transfer.
+void check_former_figure(const Scene& file, const Scene& scene) {
+    std::size_t lost = 0;
+    for (std::size_t array = 0; array < file.vertex_arrays.size(); ++array)
+        lost += file.vertex_arrays[array].lobes && !scene.vertex_arrays[array].lobes
+                    ? file.vertex_arrays[array].size()
+                    : 0;
+    if (lost > 0)
+        throw Error(prt::counted(lost, "vertex has lobes in the file, but does",
+                                 "vertices have lobes in the file, but do") +
+                    " not move in these poses; bake transfer first with prt bake --stored-lobes remove");
+}
+
 void run(LobesArguments a, Session& session) {
     check_device(a.bake.tracer);
     a.reading.outputs =
@@ -210,6 +223,8 @@ void run(LobesArguments a, Session& session) {
         if (!moves(model, scene, poses))
             print_notices(a.model.string(),
                           {"no vertex moves in these poses; use prt bake for a model that does not move"});
+        if (input.has_transfer)
+            check_former_figure(model.scene(), scene);
         const Made made = make_lobes(a, model, scene, poses, session);
         report = report_of(a, made, poses.size());
         note_the_rest(a, scene, made, input.has_transfer);
