@@ -56,11 +56,11 @@ public:
     const glm::uvec3& corners(std::uint32_t triangle) const { return triangles_[triangle].corners; }
     /// Returns the index of the triangle's primitive in Scene::primitives.
     std::size_t primitive(std::uint32_t triangle) const { return triangles_[triangle].primitive; }
-    /// Returns the material of the triangle's primitive.
-    /// True if the vertices have lobes, and therefore no transfer.
+    /// Returns whether the vertices of the triangle have lobes, and therefore no transfer.
     bool has_lobes(std::uint32_t triangle) const {
-        return scene().vertex_arrays[scene().primitives[primitive(triangle)].vertices].lobes;
+        return scene_.vertex_arrays[scene_.primitives[primitive(triangle)].vertices].lobes;
     }
+    /// Returns the material of the triangle's primitive.
     const Material& material(std::uint32_t triangle) const {
         return scene_.materials[scene_.primitives[triangles_[triangle].primitive].material];
     }

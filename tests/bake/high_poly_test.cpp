@@ -99,6 +99,19 @@ TEST(HighPoly, VerticesHaveTheVisibilityOfTheDetailedSurface) {
     EXPECT_THROW(open(0.1, 0.5), Error); // no vertex finds the pit
 }
 
+TEST(HighPoly, BacksOfDoubleSidedSurfacesAreFound) {
+    const Scene floor = floor_of(8), up = under_a_ball(waves(floor_of(8)));
+    Scene down = up;
+    for (glm::uvec3& t : down.primitives[0].triangles)
+        std::swap(t.y, t.z);
+    for (glm::vec3& normal : down.vertex_arrays[0].normals)
+        normal = -normal;
+    down.materials[down.primitives[0].material].double_sided = true;
+    const Transfer truth = first_of(bake(up, options_of(0)).baked.transfer, floor.receivers()),
+                   baked = bake(floor, options_of(0), {}, MeasureErrors::no, {&down, kReach}).baked.transfer;
+    EXPECT_LT(relative_l2(truth, baked, receiver_areas(floor)), kSameRays);
+}
+
 TEST(HighPoly, VerticesWithoutADetailedSurfaceKeepTheirPosition) {
     const Scene floor = floor_of(4), half = waves(floor_of(4));
     Scene detailed = half;

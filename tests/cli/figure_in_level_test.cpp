@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -211,6 +212,27 @@ TEST_F(FigureInLevel, IsNotRefinedWithItsLevel) {
     EXPECT_EQ(words_of_figure(both).size(), 9u);
     EXPECT_GT(both.scene.receivers(), figure.scene.receivers());
     EXPECT_EQ(validator_errors(folder / "both.glb"), 0);
+}
+
+TEST_F(FigureInLevel, DamagedLobesAreRejectedByABake) {
+    lobes("level.glb", "figure.glb");
+    const auto refusal = [&](auto&& change) {
+        GlbFile damaged = read_glb(folder / "figure.glb");
+        change(damaged.json);
+        damaged.write(folder / "damaged.glb");
+        const Outcome outcome =
+            prt({"bake", at("damaged.glb"), "-o", at("x.glb"), "--order", "3", "--rays", "8"});
+        EXPECT_EQ(outcome.status, 1);
+        EXPECT_FALSE(std::filesystem::exists(folder / "x.glb"));
+        return outcome.err;
+    };
+    const std::string version =
+        refusal([](auto& json) { json["extensions"]["PRTKIT_lobes"]["version"] = 9; });
+    EXPECT_NE(version.find("PRTKIT_lobes"), std::string::npos) << version;
+    refusal([](auto& json) {
+        auto& attributes = json["meshes"][2]["primitives"][0]["attributes"];
+        attributes["_PRT_LOBE_0"] = attributes["POSITION"];
+    });
 }
 
 TEST_F(FigureInLevel, IsCompressedWithoutChangingTheLobes) {
