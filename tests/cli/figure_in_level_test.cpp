@@ -255,8 +255,9 @@ TEST_F(FigureInLevel, IsCompressedWithoutChangingTheLobes) {
         const Transfer before = transfer(small), after = transfer(one);
         const std::vector<bool> figure = figure_of(one.scene);
         for (std::size_t p = 0; p < before.receivers(); ++p)
-            if (texels || !figure[p])
+            if (texels || !figure[p]) {
                 EXPECT_TRUE(std::ranges::equal(before.vector(p), after.vector(p))) << p;
+            }
         EXPECT_EQ(prt({"evaluate", at("both.glb"), at("other.glb")}).status, 0);
         const Model loaded = load_model(folder / "other.glb");
         ASSERT_TRUE(loaded.lobes);
