@@ -139,6 +139,8 @@ std::optional<CompressedTransfer> read_clustered(const GltfData& data, const Sce
         return std::nullopt;
     }
     check_one_to_one(data);
+    if (scene.receivers() > 0 && std::ranges::all_of(scene.vertex_arrays, &VertexArray::lobes))
+        throw Error("has transfer of vertices, although all of its vertices have lobes");
     CompressedTransfer compressed = read_clustered_set(data, scene, *set);
     ClusteredReceivers& receivers = compressed.transfer.receivers;
     if (receivers.words == 0)
