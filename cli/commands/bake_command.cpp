@@ -15,6 +15,7 @@
 #include "cli/pipeline/instance_report.h"
 #include "cli/pipeline/lamp_strengths.h"
 #include "cli/pipeline/level_report.h"
+#include "cli/pipeline/model.h"
 #include "cli/pipeline/no_shadow.h"
 #include "cli/program/outputs.h"
 #include "cli/program/session.h"
@@ -502,9 +503,7 @@ GltfDocument load_document(const BakeArguments& a) {
 /// Prints a notice about vertices with lobes, which get no transfer. Throws `Error` if all vertices have
 /// lobes.
 void check_lobes_of(const BakeArguments& a, const Scene& scene) {
-    std::size_t count = 0;
-    for (const VertexArray& vertices : scene.vertex_arrays)
-        count += vertices.lobes ? vertices.size() : 0;
+    const std::size_t count = vertices_with_lobes(scene);
     if (count == 0)
         return;
     if (count == scene.receivers())

@@ -5,6 +5,7 @@
 #include "cli/arguments/options.h"
 #include "cli/arguments/scene_arguments.h"
 #include "cli/pipeline/instance_report.h"
+#include "cli/pipeline/model.h"
 #include "cli/pipeline/scene_check.h"
 #include "cli/program/outputs.h"
 #include "cli/program/session.h"
@@ -92,14 +93,6 @@ void add_predictors(const ClusteredBases& bases, const std::string& own, Report&
                                            "no bytes per vertex; the shader does "
                                            "{{{1}predictor_rows}} multiply-adds of a color",
                                            fmt::join(predictor_names(bases), " and "), own));
-}
-
-/// Returns the number of vertices of `scene` that have lobes.
-std::size_t vertices_with_lobes(const Scene& scene) {
-    std::size_t count = 0;
-    for (const VertexArray& vertices : scene.vertex_arrays)
-        count += vertices.lobes ? vertices.size() : 0;
-    return count;
 }
 
 std::size_t vertices_without_lobes(const Scene& scene) {

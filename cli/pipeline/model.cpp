@@ -32,6 +32,13 @@ const BakeRecord* SceneFile::record() const {
     return baked ? &baked->record : nullptr;
 }
 
+std::size_t vertices_with_lobes(const Scene& scene) {
+    std::size_t count = 0;
+    for (const VertexArray& vertices : scene.vertex_arrays)
+        count += vertices.lobes ? vertices.size() : 0;
+    return count;
+}
+
 void check_belong_together(const SceneFile& baked, const Path& baked_path, const SceneFile& shipped,
                            const Path& shipped_path) {
     for (const auto& [model, path] : {std::pair(&baked, &baked_path), std::pair(&shipped, &shipped_path)})

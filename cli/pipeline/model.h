@@ -97,6 +97,9 @@ auto about(const Path& file, Work work) {
 /// may have moved vertices.
 void put_in_order_of(const Scene& scene, SceneFile& baked);
 
+/// Returns the number of vertices of `scene` that have lobes.
+std::size_t vertices_with_lobes(const Scene& scene);
+
 /// Throws `Error` unless both files have transfer of the same order for the same receivers.
 void check_belong_together(const SceneFile& baked, const Path& baked_path, const SceneFile& shipped,
                            const Path& shipped_path);
