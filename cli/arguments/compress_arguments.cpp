@@ -242,14 +242,14 @@ void add_options(CLI::App* command, CompressArguments& a) {
     add_threads(command, a.options.compress.threads);
     command
         ->add_option(
-            "--trace", a.reports.trace,
+            "--trace", a.trace,
             "log the steps of the compressor to this file; default: no log\n"
             "one JSON object per line; event: seeded (initial clusters), clustering_round, split, merge,\n"
             "  moves (splits and merges kept or reverted), coding_round, trial (one trial of a search)\n"
             "no lines about probes of a volume; no file is written if the compression fails")
         ->check(named)
         ->type_name("FILE.jsonl");
-    add_json(command, a.reports.json);
+    add_json(command, a.json);
 }
 
 void resolve(const CLI::App& command, CompressArguments& a) {

@@ -29,7 +29,7 @@ constexpr Choice<InstanceMode> kInstanceModes[] = {
      "  an error if no mesh has at least two instances that can share\n"
      "  not with --texels and --high-poly; with --refine, these meshes are not split\n"
      "  with subsurface scattering, instances of another scale than most of their mesh: as own\n"
-     "  with coarser levels of detail, instances that have them: as own\n"
+     "  instances that have coarser levels of detail: as own, except with --levels ignore\n"
      "  lamps: traced at the vertices of all instances; 304 bytes more per lamp and instance"},
     {"auto", InstanceMode::automatic,
      "shared if possible and if it saves at least 3/4 of the rays of these meshes, else own\n"
@@ -52,8 +52,8 @@ void add_no_shadow(CLI::App* command, std::vector<std::string>& materials, const
 void add_back_sides(CLI::App* command, BackSides& sides, const std::string& details) {
     choice(command, "--back-sides", sides, kBackSides,
            "light of the back sides of double-sided materials" + details +
-               "\nalways shared for surfaces with alpha blending, transmission, diffuse transmission or\n"
-               "  subsurface scattering, and with a single-sided material variant (KHR_materials_variants)",
+               "\nalways shared for surfaces with alpha blending or subsurface scattering, and with a\n"
+               "  single-sided material variant (KHR_materials_variants)",
            "auto");
 }
 
@@ -61,7 +61,8 @@ void add_levels(CLI::App* command, LevelMode& mode) {
     choice(command, "--levels", mode, kLevelModes,
            "transfer of coarser levels: from level 0, own bakes, or none\n"
            "levels of detail: nodes of MSFT_lod, or sibling nodes with names as ROCK_LOD0, ROCK_LOD1\n"
-           "--texels: coarser levels get no lightmap; --instances shared: instances with levels: as own",
+           "--texels: coarser levels get no lightmap\n"
+           "--instances shared and auto: with carry and own, instances that have levels: as own",
            "carry");
 }
 

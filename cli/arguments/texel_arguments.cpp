@@ -2,15 +2,12 @@
 
 #include "cli/arguments/texel_arguments.h"
 
-#include "bake/products/lightmaps/unwrap.h"
-#include "bake/reference/scene_lamps.h"
 #include "cli/arguments/options.h"
 #include "cli/arguments/suboptions.h"
 #include "cli/program/session.h"
 #include "prt/core/error.h"
 
 #include <fmt/core.h>
-#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -40,41 +37,14 @@ void parse_size(const std::string& text, TexelOptions& texels) {
     texels.size = size.value_or(0);
 }
 
-/// Generates new texture coordinates for the scene.
-TexelRoom unwrapped(const TexelArguments& a, const Path& path, GltfDocument& document, Scene& scene) {
-    Unwrapping unwrapping = unwrap(scene, a.texels);
-    const int set = free_texcoord(scene);
-    document = with_texcoords(std::move(document), scene, unwrapping.primitives, set);
-    scene = extract_scene(document);
-    for (Atlas& atlas : unwrapping.atlases)
-        atlas.uv_set = set;
-    print_notices(
-        path.string(),
-        {fmt::format("TEXCOORD_{} has {} now, {:.4g} texels per metre", set,
-                     unwrapping.charts == 1 ? "one chart" : fmt::format("{} charts", unwrapping.charts),
-                     unwrapping.texels_per_metre)});
-    return {std::move(unwrapping.atlases),
-            {{"charts", unwrapping.charts}, {"texels_per_metre", unwrapping.texels_per_metre}}};
-}
-
-/// Adds the lights of `scene` to the detailed model, except those with the name of one of its lamps.
-void add_lights(const Scene& scene, Scene& finer) {
-    const std::vector<TransferTerm> own = lamps_of(finer);
-    for (PunctualLight light : scene.lights)
-        if (std::ranges::none_of(own, [&](const TransferTerm& lamp) { return lamp.name == light.name; })) {
-            light.position += glm::vec3(scene.origin - finer.origin);
-            finer.lights.push_back(std::move(light));
-        }
-}
-
 } // namespace
 
-CLI::Option* add_texels(CLI::App* command, TexelArguments& a, const std::string& text) {
+CLI::Option* add_texels(CLI::App* command, TexelRequest& a, const std::string& text) {
     CLI::Option* texels =
         Suboptions("--texels", "N|N/m", text, [&a](const std::string& value) { parse_size(value, a.texels); })
             .detail("N: number of texels along each side of a texture, 1 to 8192")
-            .detail(
-                "N/m: mean number of texels per metre of surface, as 64/m; an error above 8192 along a side")
+            .detail("N/m: mean texels per metre of surface, above 0, as 64/m or 0.5/m; an error above 8192 a "
+                    "side")
             .flag("unwrap", "create new texture coordinates if the set of uv=N is missing or unusable",
                   [&a] { a.unwrap = true; })
             .detail("  new set: the TEXCOORD after the last existing one; its number is printed")
@@ -110,40 +80,14 @@ CLI::Option* add_texels(CLI::App* command, TexelArguments& a, const std::string&
                 "maximum distance from the scene, metres [diagonal of its bounding box / 50]",
                 [&a](double metres) { a.distance = metres; })
         .add(command);
-    a.option = texels;
     return texels;
 }
 
-void check_texels(const TexelArguments& a) {
+void check_texels(const TexelRequest& a, const CLI::Option* texels) {
     if (a.high_poly.empty() && a.distance)
         throw Error("--high-poly needs a file, as --high-poly detailed.glb,distance=0.1");
-    if (!a.given() && a.option->count() > 0)
+    if (!a.given() && texels->count() > 0)
         throw Error("--texels needs a size, as --texels 1024 or --texels 64/m");
-}
-
-HighPoly load_high_poly(const TexelArguments& a, const GltfOptions& reading, const Scene& scene) {
-    HighPoly finer;
-    if (a.high_poly.empty())
-        return finer;
-    finer.scene = extract_scene(load_gltf(a.high_poly, reading));
-    print_notices(a.high_poly.string(), finer.scene->notices);
-    add_lights(scene, *finer.scene);
-    const Bounds box = bounds(scene);
-    finer.distance = a.distance.value_or(static_cast<double>(glm::distance(box.low, box.high)) / 50);
-    return finer;
-}
-
-TexelRoom make_room(const TexelArguments& a, const Path& path, GltfDocument& document, Scene& scene) {
-    if (!a.unwrap)
-        return {plan_atlases(scene, a.texels)};
-    try { // existing coordinates are kept if they have space for every surface
-        TexelRoom room{plan_atlases(scene, a.texels)};
-        print_notices(path.string(),
-                      {fmt::format("has TEXCOORD_{} already, which is kept", a.texels.uv_set)});
-        return room;
-    } catch (const Error&) { // that is why
-        return unwrapped(a, path, document, scene);
-    }
 }
 
 } // namespace prt::cli

@@ -19,13 +19,19 @@ constexpr Choice<BakeMethod> kBakeMethods[] = {
 void add_method(CLI::App* command, TracerChoice& tracer, const std::string& by_rays) {
     Suboptions("--method", names_of(kBakeMethods), "method that finds which directions are blocked",
                [&tracer](const std::string& name) { tracer.method = chosen("--method", kBakeMethods, name); })
-        .detail(explained(kBakeMethods).substr(1) + "\n  " + by_rays + ": by rays, as with trace")
+        .detail(explained(kBakeMethods).substr(1) + "\n  " + by_rays +
+                ": by rays, as with trace and --device auto")
         .whole_number("resolution", 16, 16384,
                       "texels along each side of a depth map, 16 to 16384; needs raster [1024]\n"
                       "  more than the GPU supports: an error",
                       [&tracer](int texels) { tracer.raster_resolution = texels; })
         .add(command)
         ->default_str("trace");
+}
+
+void check_method(const TracerChoice& tracer) {
+    if (tracer.method == BakeMethod::trace && tracer.raster_resolution != TracerChoice{}.raster_resolution)
+        throw CLI::ValidationError("--method", "resolution needs raster");
 }
 
 void add_target_error(CLI::App* command, CLI::Option* rays, std::optional<double>& target,

@@ -67,8 +67,9 @@ void add_view(CLI::App* command, View& view) {
     vector_option(command, "--camera", view.camera,
                   "position of the camera in the scene, metres\n"
                   "+Y is up; the camera must not look straight up or down\n"
-                  "default: chosen for --fov and --size, with the default of --look-at",
-                  "whole scene is visible");
+                  "default: the whole scene is visible with --fov, --size and the default of --look-at\n"
+                  "  a given --look-at turns this camera, but does not move it",
+                  "automatic");
     vector_option(command, "--look-at", view.look_at,
                   "point that the camera looks at, metres\n"
                   "not the position of the camera, and not straight above or below it\n"
@@ -92,17 +93,6 @@ CLI::Option* add_exposure(CLI::App* command, Exposure& exposure) {
             "needs --colors unlit (prt relight), or a .png picture with --show lit (prt render)")
         ->type_name("STOPS")
         ->default_str("auto");
-}
-
-Camera choose_camera(const View& view, const Scene& scene) {
-    const float aspect = static_cast<float>(view.width) / static_cast<float>(view.height);
-    const auto fov = static_cast<float>(glm::radians(view.field_of_view_degrees));
-    Camera camera = automatic_camera(scene, aspect, fov);
-    if (view.look_at)
-        camera.target = glm::vec3(*view.look_at - scene.origin);
-    if (view.camera)
-        camera.position = glm::vec3(*view.camera - scene.origin);
-    return camera;
 }
 
 } // namespace prt::cli

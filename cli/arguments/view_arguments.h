@@ -2,36 +2,18 @@
 
 // Options for the camera and exposure of pictures.
 
-#include "prt/load/scene.h"
-#include "prt/render/camera.h"
+#include "cli/pipeline/view.h"
 
 #include <CLI/CLI.hpp>
-#include <glm/vec3.hpp>
-
-#include <optional>
 
 namespace prt::cli {
 
-/// Exposure of a picture.
-struct Exposure {
-    bool automatic = true; ///< from the visible surfaces of the model
-    double stops = 0;      ///< stops of exposure, added to the automatic ones
-};
-
-/// Camera and size of a picture.
-struct View {
-    int width = 1280, height = 720, samples = 2;
-    std::optional<glm::dvec3> camera, look_at; ///< metres, world
-    double field_of_view_degrees = 35;
-};
+using namespace pipeline;
 
 /// --size, --camera, --look-at, --fov
 void add_view(CLI::App* command, View& view);
 
 /// --exposure
 CLI::Option* add_exposure(CLI::App* command, Exposure& exposure);
-
-/// Returns the camera of `view`; by default one that sees the whole scene.
-Camera choose_camera(const View& view, const Scene& scene);
 
 } // namespace prt::cli

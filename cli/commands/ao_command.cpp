@@ -29,7 +29,8 @@ struct AoArguments {
     std::vector<std::string> no_shadow; ///< names of materials
     BackSides back_sides = BackSides::automatic;
     std::string attribute = "COLOR_0";
-    TexelArguments textures;
+    TexelRequest textures;
+    const CLI::Option* texels_option = nullptr;
     OcclusionOptions options;
     std::optional<int> rays;
     struct Outputs {
@@ -119,7 +120,7 @@ double black_share(std::span<const float> ambient, std::span<const float> areas)
 
 Report bake_vertices(const AoArguments& a, GltfDocument& document, const Scene& scene,
                      const Progress& progress) {
-    const HighPoly finer = load_high_poly(a.textures, a.reading, scene);
+    const HighPoly finer = load_high_poly(a.textures, a.reading, scene, print_notices);
     const OcclusionResult result = ambient_occlusion(scene, a.options, progress, finer.model());
     const BakeStatistics& s = result.statistics;
     std::vector<VertexAttribute> attributes;
@@ -159,7 +160,7 @@ Report bake_vertices(const AoArguments& a, GltfDocument& document, const Scene& 
 
 Report bake_textures(const AoArguments& a, GltfDocument& document, const Scene& scene,
                      const std::vector<Atlas>& atlases, const Progress& progress) {
-    const HighPoly finer = load_high_poly(a.textures, a.reading, scene);
+    const HighPoly finer = load_high_poly(a.textures, a.reading, scene, print_notices);
     std::vector<SurfaceTexture> textures;
     Json maps = Json::array();
     std::size_t lit = 0, measured = 0, bright = 0;
@@ -216,7 +217,7 @@ void check_arguments(const AoArguments& a) {
         throw Error("--attribute: glTF requires that names of custom attributes begin with _, as _AO");
     if (a.attribute == kBentNormal && a.outputs.bent_normals)
         throw Error("--attribute: _BENT_NORMAL is the attribute of --bent-normals; choose another name");
-    check_texels(a.textures);
+    check_texels(a.textures, a.texels_option);
     if (a.outputs.occluders && !a.textures.high_poly.empty())
         throw Error("--occluders does not support --high-poly: bake the volumes of the detailed model");
     if (a.outputs.occluders && !a.options.tracer.falloff.blocks_everywhere())
@@ -260,8 +261,9 @@ void run(AoArguments a, Session& session) {
     if (!a.outputs.occluders && (!a.in_textures() || a.textures.unwrap))
         about(a.scene, [&] { separate(a, document, scene); });
     const TexelRoom room =
-        a.in_textures() ? about(a.scene, [&] { return make_room(a.textures, a.scene, document, scene); })
-                        : TexelRoom{};
+        a.in_textures()
+            ? about(a.scene, [&] { return make_room(a.textures, a.scene, document, scene, print_notices); })
+            : TexelRoom{};
     leave_out_shadows(scene, a.no_shadow);
     Report report;
     {
@@ -282,6 +284,7 @@ void add_outputs(CLI::App* command, AoArguments& a) {
                                      "bake textures of this size instead of vertices; default: vertices\n"
                                      "occlusion textures of the materials, which replace existing ones\n"
                                      "not with --fit, --attribute and --occluders");
+    a.texels_option = texels;
     command
         ->add_option("--attribute", a.attribute,
                      "vertex attribute to write: COLOR_0 or a name with leading _\n"

@@ -2,8 +2,6 @@
 
 #include "cli/commands/commands.h"
 
-#include "bake/gltf/encode_glb.h"
-#include "bake/reference/scene_lamps.h"
 #include "cli/arguments/light_arguments.h"
 #include "cli/arguments/options.h"
 #include "cli/arguments/scene_arguments.h"
@@ -11,23 +9,10 @@
 #include "cli/arguments/texel_arguments.h"
 #include "cli/arguments/trace_arguments.h"
 #include "cli/arguments/volume_arguments.h"
-#include "cli/pipeline/back_sides.h"
-#include "cli/pipeline/instance_report.h"
-#include "cli/pipeline/lamp_strengths.h"
-#include "cli/pipeline/level_report.h"
-#include "cli/pipeline/model.h"
-#include "cli/pipeline/no_shadow.h"
+#include "cli/pipeline/bake_model.h"
 #include "cli/program/outputs.h"
 #include "cli/program/session.h"
-#include "cli/report/bake_report.h"
-#include "cli/report/lightmap_report.h"
-#include "cli/report/volume_report.h"
-#include "prt/bake/lightmap_bake.h"
-#include "prt/bake/refine.h"
 #include "prt/core/error.h"
-#include "prt/gltf/transfer_gltf.h"
-#include "runtime/core/support/counted.h"
-#include "runtime/core/support/printable.h"
 
 #include <fmt/core.h>
 
@@ -37,30 +22,13 @@
 namespace prt::cli {
 namespace {
 
-/// Treatment of lobes of the scene file.
-enum class LobesOfFile { keep, remove };
 constexpr Choice<LobesOfFile> kLobesOfFile[] = {
     {"keep", LobesOfFile::keep, "their vertices get no transfer, but block and reflect light in this pose"},
     {"remove", LobesOfFile::remove, "their vertices get transfer, which does not move with the figure"}};
 
-struct BakeArguments {
-    Path scene, output, json;
-    std::vector<std::string> no_shadow; ///< names of materials
-    struct Finer {
-        std::optional<double> refine; ///< relative L2 over the surface to split triangles for
-        std::size_t max_vertices = 0; ///< maximum for a refined scene; 0: no limit except `refine`
-        HighPoly high_poly;           ///< loaded model of --high-poly
-    } finer;
-    BackSides back_sides = BackSides::automatic;
-    TexelArguments texels;  ///< if given: baked in place of vertices
-    VolumeArguments volume; ///< if given: baked in addition to surfaces
-    InstanceArguments instances;
-    struct Kept {
-        LevelMode levels = LevelMode::carry;
-        LobesOfFile lobes = LobesOfFile::keep;
-    } kept; ///< treatment of data of the scene file
-    BakeOptions options;
-    ReadingOptions reading;
+struct BakeArguments : BakeRequest {
+    Path json;
+    const CLI::Option *texels_option = nullptr, *volume_option = nullptr;
 };
 
 constexpr Choice<std::optional<TransferStorage>> kStorages[] = {
@@ -241,10 +209,12 @@ void add_measurement(CLI::App* command, BakeOptions& options) {
             "measure light at the vertices, or at points between them\n"
             "not with --texels\n"
             "with --refine: auto acts as surface; vertex is an error\n"
-            "with --target-error or --method raster, or if instances share transfer: auto acts as vertex\n"
+            "else with --target-error, --method raster or shared instances: auto acts as vertex\n"
             "  light of lamps in a bake with shared transfer: as without it\n"
             "  surface fits shared transfer to the surface, but not the 52 bytes of an instance");
-    add_method(command, options.tracer, "bounces, lamps, probes, errors for --refine, shared instances");
+    add_method(command, options.tracer,
+               "bounces, lamps, probes, errors for --refine, and the effect of its surroundings on an\n"
+               "    instance that shares transfer");
 }
 
 void add_refinement(CLI::App* command, BakeArguments& a) {
@@ -266,218 +236,9 @@ void add_refinement(CLI::App* command, BakeArguments& a) {
         .add(command);
 }
 
-/// Replaces document and scene by the refined ones, in which instances of `meshes` and nodes with lobes are
-/// unchanged. Returns nothing if refinement is off.
-std::optional<RefineStatistics> refine(const BakeArguments& a, GltfDocument& document, Scene& scene,
-                                       SharedMeshes& meshes, Session& session) {
-    if (!a.finer.refine)
-        return std::nullopt;
-    RefineOptions how{.target = *a.finer.refine, .max_vertices = a.finer.max_vertices};
-    for (const SharedMesh& mesh : meshes.meshes)
-        for (const MeshPlacement& placement : mesh.placements)
-            how.kept_nodes.push_back(placement.node);
-    for (const Primitive& primitive : scene.primitives)
-        if (scene.vertex_arrays[primitive.vertices].lobes)
-            how.kept_nodes.push_back(primitive.node);
-    ProgressBar bar = session.progress_bar("refining");
-    const RefineResult result = prt::refine(scene, a.options, how, bar.progress(), a.finer.high_poly.model());
-    if (result.statistics.rounds == 0)
-        return result.statistics;
-    document = meshes.meshes.empty() ? refined(std::move(document), scene, result.refinement)
-                                     : pipeline::refined(document, scene, meshes, result.refinement);
-    Scene finer = extract_scene(document);
-    leave_out_shadows(finer, a.no_shadow);
-    finer.notices = std::move(scene.notices); // notices of the input file
-    scene = std::move(finer);
-    if (!meshes.meshes.empty())
-        meshes = find_shared_meshes(document, scene, a.options, a.kept.levels).meshes;
-    return result.statistics;
-}
-
-/// Result of a bake, and statistics of the refined mesh.
-struct Baked {
-    std::optional<RefineStatistics> refinement;
-    BakeResult result;
-};
-
-Baked bake_scene(const BakeArguments& a, GltfDocument& document, Scene& scene, Session& session) {
-    leave_out_shadows(scene, a.no_shadow);
-    Baked baked;
-    SharedMeshes none;
-    baked.refinement = refine(a, document, scene, none, session);
-    ProgressBar bar = session.progress_bar("baking");
-    baked.result = bake(scene, a.options, bar.progress(), MeasureErrors::yes, a.finer.high_poly.model());
-    return baked;
-}
-
-SidesRequest sides_of(const BakeArguments& a) {
-    return {.sides = a.back_sides,
-            .path = a.scene,
-            .options = a.options,
-            .no_shadow = a.no_shadow,
-            .levels = a.kept.levels != LevelMode::ignore,
-            .notify = print_notices};
-}
-
-/// Returns the scene whose surfaces and lights are baked.
-const Scene& lit_scene(const BakeArguments& a, const Scene& scene) {
-    return a.finer.high_poly.scene ? *a.finer.high_poly.scene : scene;
-}
-
-/// Bakes the requested volume of the light of `scene`.
-std::optional<VolumeBake> bake_probes(const BakeArguments& a, const Scene& scene, Session& session) {
-    if (!a.volume.given())
-        return std::nullopt;
-    ProgressBar bar = session.progress_bar("baking the volume");
-    return about(a.scene, [&] {
-        return bake_volume(scene, volume_options(a.volume, scene), a.options, bar.progress());
-    });
-}
-
-/// Returns the file with the surface transfer in `document`, and with its volume, which was baked in `scene`.
-std::vector<std::byte> with_volume(const BakeArguments& a, GltfDocument& document, const Scene& scene,
-                                   const std::optional<VolumeBake>& volume) {
-    return about(a.scene, [&] {
-        if (volume)
-            write_volume(document, scene, volume->volume);
-        else
-            discard_volume(document);
-        return encode_glb(document);
-    });
-}
-
-/// Writes the transfer of the vertices of level 0, and of coarser levels if they have some.
-void write_vertices(const BakeArguments& a, GltfDocument& document, const Scene& scene,
-                    const BakedTransfer& baked, std::optional<BakedLevels>& levels, Session& session) {
-    if (!levels || a.kept.levels == LevelMode::ignore) {
-        write_transfer(document, scene, baked);
-        return;
-    }
-    if (a.finer.refine) // refinement changed the mesh of level 0
-        levels->scene = extract_levels(document);
-    Scene& all = levels->scene.scene;
-    leave_out_shadows(all, a.no_shadow);
-    ProgressBar bar = session.progress_bar("levels of detail");
-    bake_levels(*levels, baked.transfer, a.options, bar.progress(), a.finer.high_poly.model());
-    BakedTransfer whole{std::move(levels->bake.transfer), baked.record, baked.storage};
-    write_transfer(document, all, whole);
-}
-
-/// Prints a notice if the lights of the scene are far brighter than a sky of radiance 1.
-void note_lights(const BakeArguments& a, const Scene& scene, const Transfer& transfer,
-                 std::span<const float> areas) {
-    const Lighting lighting{.sky = constant_light(transfer.layout.order, glm::vec3(1)),
-                            .lamps = std::vector<glm::vec3>(transfer.layout.lamps(), glm::vec3(1))};
-    if (auto notice = photometric_notice(scene, relit_by(transfer, areas, a.options.threads), lighting))
-        print_notices(a.scene.string(), {std::move(*notice)});
-}
-
-void run_vertices(const BakeArguments& a, GltfDocument& document, Scene& scene, Session& session) {
-    about(a.scene, [&] { separate_sides(sides_of(a), document, scene); });
-    std::optional<BakedLevels> levels = about(a.scene, [&] {
-        return find_levels(a.kept.levels, a.scene, document, a.options.threads, print_notices);
-    });
-    const Baked baked = about(a.scene, [&] { return bake_scene(a, document, scene, session); });
-    note_lights(a, scene, baked.result.baked.transfer, receiver_areas(scene));
-    const Scene& lit = lit_scene(a, scene);
-    const std::optional<VolumeBake> volume = bake_probes(a, lit, session);
-    about(a.scene, [&] { write_vertices(a, document, scene, baked.result.baked, levels, session); });
-    const std::vector<std::byte> file = with_volume(a, document, lit, volume);
-    Report report = bake_report({.output = a.output.string(),
-                                 .options = a.options,
-                                 .no_shadow = !a.no_shadow.empty(),
-                                 .scene = scene,
-                                 .result = baked.result,
-                                 .refinement = baked.refinement,
-                                 .refine_target = a.finer.refine.value_or(0),
-                                 .bytes = session.write(a.output, file)});
-    if (levels)
-        add_level_bake(*levels, report);
-    if (volume)
-        add_volume_bake(*volume, report);
-    publish(report, a.json, session);
-}
-
-/// Prints a notice for each emissive material of the scene that the model of --high-poly does not contain.
-void note_missing_lamps(const BakeArguments& a, const Scene& scene, const Scene& finer) {
-    const std::vector<TransferTerm> baked = lamps_of(finer);
-    for (const TransferTerm& lamp : lamps_of(scene))
-        if (std::ranges::none_of(baked, [&](const TransferTerm& other) { return other.name == lamp.name; }))
-            print_notices(a.scene.string(),
-                          {fmt::format("the model of --high-poly has no emissive material '{}': this lamp "
-                                       "is not baked",
-                                       printable(lamp.name))});
-}
-
-void run_texels(const BakeArguments& a, GltfDocument& document, Scene& scene, const TexelRoom& room,
-                Session& session) {
-    leave_out_shadows(scene, a.no_shadow);
-    const LightmapBake baked = about(a.scene, [&] {
-        ProgressBar bar = session.progress_bar("baking");
-        return bake_lightmap(scene, room.atlases, a.options, a.finer.high_poly.model(), bar.progress());
-    });
-    note_lights(a, scene, baked.lightmap.baked.transfer, baked.lightmap.areas);
-    const Scene& lit = lit_scene(a, scene);
-    const std::optional<VolumeBake> volume = bake_probes(a, lit, session);
-    about(a.scene, [&] { write_lightmap(document, scene, baked.lightmap); });
-    const std::vector<std::byte> file = with_volume(a, document, lit, volume);
-    Report report = lightmap_report(
-        {.output = a.output.string(), .scene = scene, .bake = baked, .bytes = session.write(a.output, file)});
-    add_figures(report, room.figures);
-    if (volume)
-        add_volume_bake(*volume, report);
-    publish(report, a.json, session);
-}
-
-void run_instances(const BakeArguments& a, SharedMeshes meshes, GltfDocument& document, Scene& scene,
-                   Session& session) {
-    leave_out_shadows(scene, a.no_shadow);
-    about(a.scene, [&] { separate_sides_of_meshes(sides_of(a), meshes, document, scene); });
-    const std::optional<RefineStatistics> refinement =
-        about(a.scene, [&] { return refine(a, document, scene, meshes, session); });
-    std::optional<BakedLevels> levels = about(a.scene, [&] {
-        return find_levels(a.kept.levels, a.scene, document, a.options.threads, print_notices);
-    });
-    const FlatScene flat{document, scene, a.no_shadow};
-    InstancedBake baked = about(a.scene, [&] {
-        ProgressBar bar = session.progress_bar("baking");
-        return bake_shared(a.instances, flat, std::move(meshes), a.options, bar.progress());
-    });
-    if (!baked.document) {
-        print_notices("instances",
-                      {fmt::format("all {} have an error above {:.3g} %: each is baked separately",
-                                   baked.baked_alone, 100 * a.instances.error)});
-        run_vertices(a, document, scene, session);
-        return;
-    }
-    const std::optional<VolumeBake> volume = bake_probes(a, scene, session);
-    about(a.scene, [&] {
-        if (!levels || a.kept.levels == LevelMode::ignore)
-            return write_shared(baked, flat, nullptr, a.options, {});
-        ProgressBar bar = session.progress_bar("levels of detail");
-        write_shared(baked, flat, &*levels, a.options, bar.progress());
-    });
-    const std::vector<std::byte> file = with_volume(a, *baked.document, scene, volume);
-    Report report = instance_report({.output = a.output.string(),
-                                     .scene = scene,
-                                     .baked = baked,
-                                     .error = a.instances.error,
-                                     .refinement = refinement,
-                                     .refine_target = a.finer.refine.value_or(0),
-                                     .bytes = session.write(a.output, file)});
-    if (levels)
-        add_level_bake(*levels, report);
-    if (volume)
-        add_volume_bake(*volume, report);
-    publish(report, a.json, session);
-}
-
 void check_arguments(const BakeArguments& a) {
-    check_texels(a.texels);
-    check_volume(a.volume);
-    if (a.texels.given() && a.finer.refine)
-        throw Error(
-            "--refine and --texels cannot be combined: --refine splits triangles for light at vertices");
+    check_texels(a.texels, a.texels_option);
+    check_volume(a.volume, a.volume_option);
     if (a.finer.max_vertices > 0 && !a.finer.refine)
         throw CLI::ValidationError("--refine", "needs an error, as --refine 0.02,vertices=50000");
     const LampOptions usual;
@@ -485,34 +246,9 @@ void check_arguments(const BakeArguments& a) {
         (!a.options.lamps.groups.empty() || a.options.lamps.radius != usual.radius ||
          a.options.lamps.rays != usual.rays))
         throw CLI::ValidationError("--lamps", "none has no settings");
-    if (a.options.tracer.method == BakeMethod::trace &&
-        a.options.tracer.raster_resolution != TracerChoice{}.raster_resolution)
-        throw CLI::ValidationError("--method", "resolution needs raster");
+    check_method(a.options.tracer);
     if (a.options.subsurface.media.empty() && a.options.subsurface.metres_per_unit != 1)
         throw CLI::ValidationError("--metres-per-unit", "needs --subsurface");
-}
-
-/// Reads the document, without its lobes if requested.
-GltfDocument load_document(const BakeArguments& a) {
-    GltfDocument document = load_gltf(a.scene, a.reading);
-    if (a.kept.lobes == LobesOfFile::remove)
-        discard_lobes(document);
-    return document;
-}
-
-/// Prints a notice about vertices with lobes, which get no transfer. Throws `Error` if all vertices have
-/// lobes.
-void check_lobes_of(const BakeArguments& a, const Scene& scene) {
-    const std::size_t count = vertices_with_lobes(scene);
-    if (count == 0)
-        return;
-    if (count == scene.receivers())
-        throw Error(
-            a.scene.string() +
-            ": all vertices have lobes, so nothing needs transfer; --stored-lobes remove bakes transfer");
-    print_notices(a.scene.string(), {prt::counted(count, "vertex keeps its lobes and gets no transfer",
-                                                  "vertices keep their lobes and get no transfer") +
-                                     " (--stored-lobes remove bakes it)"});
 }
 
 void run(BakeArguments a, Session& session) {
@@ -522,37 +258,8 @@ void run(BakeArguments a, Session& session) {
     inputs.insert(inputs.end(), {a.scene, a.texels.high_poly});
     a.reading.outputs =
         check_outputs({{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}}, inputs);
-    a.options.repairs.bad_textures = a.reading.bad_textures;
-    if (a.finer.refine && a.options.fit == FitMode::automatic)
-        a.options.fit = FitMode::surface; // the fit with which the refinement measures errors
-    a.texels.texels.leave_out_lobes = true;
-    GltfDocument document = load_document(a);
-    Scene scene = extract_scene(document);
-    read_occluders(document); // which it passes on
-    read_lobes(document, scene);
-    print_notices(a.scene.string(), scene.notices);
-    check_lobes_of(a, scene);
-    a.finer.high_poly = load_high_poly(a.texels, a.reading, scene);
-    if (a.finer.high_poly.scene && a.options.lamps.mode != LampMode::none)
-        note_missing_lamps(a, scene, *a.finer.high_poly.scene);
-    TexelRoom room;
-    if (a.texels.given() && a.texels.unwrap)
-        about(a.scene, [&] { separate_sides(sides_of(a), document, scene); });
-    if (a.texels.given())
-        room = about(a.scene, [&] { return make_room(a.texels, a.scene, document, scene); });
-    const SharedMeshes meshes = about(a.scene, [&] {
-        return meshes_to_share(a.instances, document, scene,
-                               {a.options, a.texels.given(), a.finer.high_poly.scene.has_value(),
-                                a.finer.refine.has_value(), a.kept.levels});
-    });
-    if (a.texels.given() && a.kept.levels != LevelMode::ignore && has_levels(document))
-        print_notices(a.scene.string(), {"coarser levels of detail get no lightmap"});
-    if (a.texels.given())
-        run_texels(a, document, scene, room, session);
-    else if (!meshes.meshes.empty())
-        run_instances(a, meshes, document, scene, session);
-    else
-        run_vertices(a, document, scene, session);
+    Report report = bake_model(a, load_gltf(a.scene, a.reading), session.host());
+    publish(report, a.json, session);
 }
 
 } // namespace
@@ -595,12 +302,12 @@ void add_bake(CLI::App& app, Session& session) {
         command, a.back_sides,
         "\nalways shared for --texels without unwrap\n"
         "instances that share transfer have the same vertices: light at one of them is sufficient");
-    add_texels(command, a.texels,
-               "bake lightmaps instead of vertices: N x N texels, or N per metre\n"
-               "not with --fit, --refine and --instances shared\n"
-               "not for materials with subsurface scattering or diffuse transmission")
-        ->excludes(command->get_option("--fit")); // texels measure light at their centers
-    add_volume(command, a.volume);
+    a.texels_option = add_texels(command, a.texels,
+                                 "bake lightmaps instead of vertices: N x N texels, or N per metre\n"
+                                 "not with --fit, --refine and --instances shared\n"
+                                 "not for materials with subsurface scattering or diffuse transmission")
+                          ->excludes(command->get_option("--fit")); // texels measure light at their centers
+    a.volume_option = add_volume(command, a.volume);
     add_instances(command, a.instances);
     add_levels(command, a.kept.levels);
     choice(command, "--stored-lobes", a.kept.lobes, kLobesOfFile,

@@ -5,26 +5,15 @@
 #include "cli/arguments/light_arguments.h"
 #include "cli/arguments/options.h"
 #include "cli/arguments/scene_arguments.h"
-#include "cli/pipeline/comparison.h"
-#include "cli/pipeline/evaluation_lights.h"
-#include "cli/pipeline/level_errors.h"
-#include "cli/pipeline/measure_budget.h"
-#include "cli/pipeline/no_shadow.h"
-#include "cli/pipeline/volume_errors.h"
+#include "cli/pipeline/evaluate_model.h"
 #include "cli/program/outputs.h"
 #include "cli/program/session.h"
-#include "cli/report/of_texels.h"
-#include "cli/report/sweep_report.h"
-#include "prt/core/error.h"
-#include "prt/core/error_measures.h"
 
-#include <filesystem>
 #include <set>
 
 namespace prt::cli {
 namespace {
 
-enum class Measure { sweep, budget, volume };
 constexpr Choice<Measure> kMeasures[] = {
     {"sweep", Measure::sweep,
      "error against bytes and shader cost, for several compression methods; takes minutes\n"
@@ -39,67 +28,9 @@ constexpr Choice<Measure> kMeasures[] = {
      "  compressed volume\n"
      "  not with --rotations above 1"}};
 
-struct EvaluateArguments {
-    Path baked, shipped;
+struct EvaluateArguments : EvaluateRequest {
     ReportFiles files;
-    std::vector<Path> lights;
-    LightOptions light_options;
-    SunCount suns = {std::nullopt};
-    int rotations = 1; ///< number of rotations of each light about +Y
-    std::set<Measure> measures;
-    std::vector<std::string> no_shadow; ///< names of materials
-    ReadingOptions reading;
-    int threads = 0;
 };
-
-Sweep run_sweep(const EvaluateArguments& a, const SceneFile& baked, const std::vector<LoadedLight>& lights,
-                Session& session) {
-    std::vector<Light> all;
-    for (const LoadedLight& light : lights)
-        all.push_back(light.combined);
-    CompressOptions options;
-    options.threads = a.threads;
-    ProgressBar bar = session.progress_bar("sweeping");
-    const Transfer& transfer = baked.baked->transfer;
-    const std::optional<SceneSurface> vertices =
-        baked.lightmap ? std::nullopt : std::optional<SceneSurface>(baked.scene);
-    const ReceiverSurface surface =
-        vertices ? vertices->view() : ReceiverSurface{baked.lightmap->areas, baked.lightmap->edges};
-    return sweep(transfer, surface, all, options, {}, bar.progress());
-}
-
-/// Returns the named lights, rotated as requested, or the default ones.
-std::vector<LoadedLight> lights_of(const EvaluateArguments& a, int order) {
-    std::vector<LoadedLight> lights;
-    for (const Path& path : a.lights)
-        for (LoadedLight& light :
-             rotations(load_light(path, order, a.suns, a.light_options, a.threads), a.rotations))
-            lights.push_back(std::move(light));
-    return lights.empty() ? default_lights(order) : lights;
-}
-
-/// Returns a report with title and input files.
-Report empty_report(const EvaluateArguments& a, const Session& session) {
-    Report report;
-    report.title = a.shipped.empty() ? "Rate and distortion of " + a.baked.filename().string()
-                                     : a.shipped.filename().string() + " against its bake";
-    report.origin = {{"baked", a.baked.string()}};
-    if (!a.shipped.empty())
-        report.origin.emplace_back("shipped", a.shipped.string());
-    report.origin.emplace_back("command", session.command_line());
-    return report;
-}
-
-void add_sizes_of_bake(const EvaluateArguments& a, const Transfer& transfer, Report& report) {
-    report.figures.insert(
-        report.figures.end(),
-        {{{"receivers", "vertices"}, transfer.receivers()},
-         {{"order", "order"}, transfer.layout.order},
-         {{"channels", "channels"}, transfer.layout.channels()},
-         {{"bytes_baked_per_vertex", "bytes per vertex, bake"}, transfer.dimension() * sizeof(float)},
-         {{"bytes_file_baked", "bytes of the file, bake"},
-          static_cast<std::size_t>(std::filesystem::file_size(a.baked))}});
-}
 
 std::vector<Path> check(const EvaluateArguments& a) {
     if (a.shipped.empty() && a.measures.empty())
@@ -111,57 +42,23 @@ std::vector<Path> check(const EvaluateArguments& a) {
         throw CLI::ValidationError("--rotations",
                                    "cannot be combined with --measure budget and volume; use --rotate");
     std::vector<Path> inputs = a.lights;
-    inputs.insert(inputs.end(), {a.baked, a.shipped});
+    inputs.insert(inputs.end(), {a.baked.path, a.shipped.path});
     return check_outputs({{a.files.json, "--json", {".json"}},
                           {a.files.html, "--report", {".html", ".htm"}},
                           {a.files.csv, "--report", {".csv"}}},
                          inputs);
 }
 
-BudgetRequest budget_request(const EvaluateArguments& a) {
-    return {.baked = a.baked,
-            .shipped = a.shipped,
-            .reading = a.reading,
-            .lights = {.files = a.lights,
-                       .suns = a.suns,
-                       .reading = a.light_options,
-                       .order = {},
-                       .separate = {},
-                       .threads = a.threads},
-            .no_shadow = a.no_shadow};
-}
-
 void run(EvaluateArguments a, Session& session) {
     a.reading.outputs = check(a);
-    a.reading.leave_out_lobes = true; // prt lobes measures them
-    SceneFile baked = load_scene_file(a.baked, a.reading);
-    if (!baked.baked)
-        throw Error(a.baked.string() +
-                    ": contains no raw transfer; the first file must be the output of prt bake");
-    if (has_lobes(baked.document) &&
-        (a.measures.contains(Measure::budget) || a.measures.contains(Measure::volume)))
-        throw Error(a.baked.string() + ": --measure budget and volume do not support files with lobes: they "
-                                       "repeat the bake without the vertices that have lobes");
-    const std::vector<LoadedLight> lights = lights_of(a, baked.baked->transfer.layout.order);
-    Report report = empty_report(a, session);
+    a.pictures = !a.files.html.empty();
+    Report report = evaluate_model(a, session.host());
+    report.title = a.shipped.empty() ? "Rate and distortion of " + a.baked.path.filename().string()
+                                     : a.shipped.path.filename().string() + " against its bake";
+    report.origin = {{"baked", a.baked.string()}};
     if (!a.shipped.empty())
-        add_comparison({.baked = a.baked,
-                        .shipped = a.shipped,
-                        .reading = a.reading,
-                        .pictures = !a.files.html.empty(),
-                        .threads = a.threads},
-                       baked, lights, report);
-    if (!a.shipped.empty() && !baked.lightmap)
-        add_level_errors({baked.document, a.baked, a.shipped, a.reading, a.threads}, lights, report);
-    add_sizes_of_bake(a, baked.baked->transfer, report);
-    if (a.measures.contains(Measure::budget))
-        add_budget(budget_request(a), baked, report, session.host());
-    if (a.measures.contains(Measure::volume))
-        add_volume_errors(budget_request(a), baked, report, session.host());
-    if (a.measures.contains(Measure::sweep))
-        add_sweep(run_sweep(a, baked, lights, session), report);
-    if (baked.lightmap)
-        report_texels(report);
+        report.origin.emplace_back("shipped", a.shipped.string());
+    report.origin.emplace_back("command", session.command_line());
     publish(report, a.files, session);
 }
 
@@ -190,14 +87,14 @@ void add_evaluate(CLI::App& app, Session& session) {
         run(given, session);
     });
     command
-        ->add_option("baked", a.baked,
+        ->add_option("baked", a.baked.path,
                      "reference for the second file, and model that --measure measures\n"
                      "                              output of prt bake, or of prt make --keep-bake")
         ->required()
         ->check(named);
     command
         ->add_option(
-            "shipped", a.shipped,
+            "shipped", a.shipped.path,
             "compressed file made from the first file, or another bake to compare\n"
             "                              other bake: same vertices or texels, SH order (--order) and "
             "lamps\n"

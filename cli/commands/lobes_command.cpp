@@ -206,6 +206,7 @@ void check_former_figure(const Scene& file, const Scene& scene) {
 
 void run(LobesArguments a, Session& session) {
     check_device(a.bake.tracer);
+    check_method(a.bake.tracer);
     a.reading.outputs =
         check_outputs({{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}}, {a.model});
     a.bake.bad_textures = a.reading.bad_textures;

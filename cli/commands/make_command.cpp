@@ -75,7 +75,7 @@ void add_goals(CLI::App* command, MakeGoal& goal) {
         ->add_flag("--best-effort", goal.best_effort,
                    "write the closest result if --max-error is not met; default: error\n"
                    "needs --max-error; not with --bytes-per-vertex\n"
-                   "without these two options, the closest result is always written")
+                   "without --max-error and --bytes-per-vertex, the closest result is always written")
         ->needs(error);
 }
 

@@ -4,14 +4,13 @@
 
 #include "bake/gltf/encode_glb.h"
 #include "bake/gltf/vertex_fallback.h"
-#include "bake/pipeline/sun_radiance.h"
 #include "bake/reference/light_meter.h"
 #include "cli/arguments/light_arguments.h"
 #include "cli/arguments/options.h"
 #include "cli/arguments/view_arguments.h"
 #include "cli/pipeline/lamp_strengths.h"
 #include "cli/pipeline/loaded_light.h"
-#include "cli/pipeline/posed_lobes.h"
+#include "cli/pipeline/relit_vertices.h"
 #include "cli/pipeline/solid_materials.h"
 #include "cli/program/outputs.h"
 #include "cli/program/session.h"
@@ -64,40 +63,13 @@ std::vector<glm::vec3> base_colors(const Surfaces& surfaces) {
     return colors;
 }
 
-/// Returns exit radiance for albedo 1 by transfer: from the sky, and from suns after a bounce. Discards the
-/// transfer in `model` and its document, because it needs more memory than all later steps.
-std::vector<glm::vec3> lit_by_transfer(const Lighting& lighting, int threads, SceneFile& model) {
-    std::vector<glm::vec3> radiance = model.compressed
-                                          ? exit_radiance(model.compressed->transfer, lighting, threads)
-                                          : exit_radiance(model.baked->transfer, lighting, threads);
-    light_lobes(model, lighting, radiance);
-    model.baked.reset();
-    model.compressed.reset();
-    discard_transfer(model.document);
-    discard_lobes(model.document);
-    return radiance;
-}
-
-/// Direct light of suns, by rays.
-void add_suns(const TraceScene& scene, std::span<const Sun> suns, const SunRays& rays,
-              const Progress& progress, std::vector<glm::vec3>& radiance) {
-    const std::vector<glm::vec3> direct = sun_radiance(scene, suns, rays, progress);
-    for (std::size_t p = 0; p < radiance.size(); ++p)
-        radiance[p] += direct[p];
-}
-
-/// Whether suns can only be lit with the sky.
-bool is_together(const SceneFile& model) {
-    return model.lobes || layout_of(model).has(TermKind::combined);
-}
-
 void check_model(const RelightArguments& a, const SceneFile& model) {
     if (!model.record())
         throw Error(a.model.string() + ": contains no transfer; run prt bake first");
     check_of_vertices(model, a.model, "relight writes vertex colors; use prt render");
     if (a.environment.empty() && layout_of(model).lamps() == 0)
         throw Error(a.model.string() + ": has no lamps; light it with --lights");
-    if (is_together(model)) {
+    if (suns_stay_in_sky(model)) {
         if (a.suns.count.value_or(0) > 0)
             throw Error(a.model.string() + ": " + kNoDirectTerm + ", or light it with --suns 0");
         print_notices(a.model.string(),
@@ -174,7 +146,7 @@ void run(RelightArguments a, Session& session) {
     const Stopwatch stopwatch;
     SceneFile model = load_scene_file(a.model, a.reading);
     check_model(a, model);
-    const SunCount suns = is_together(model) ? SunCount{0} : a.suns;
+    const SunCount suns = suns_stay_in_sky(model) ? SunCount{0} : a.suns;
     const LoadedLight light =
         a.environment.empty() ? dark_sky(model.order())
                               : load_light(a.environment, model.order(), suns, a.light_options, a.threads);
@@ -188,10 +160,16 @@ void run(RelightArguments a, Session& session) {
     ProgressBar bar = session.progress_bar("relighting");
     const bool suns_are_separate = !light.split.suns.empty() && layout_of(model).has(TermKind::direct);
     const Lighting lighting{light.sky, light_of_suns(light), lamp_strengths(a.lamps, layout_of(model))};
-    std::vector<glm::vec3> radiance = lit_by_transfer(lighting, a.threads, model);
+    std::vector<glm::vec3> radiance = lit_vertices(model, lighting, a.threads);
+    // They need more memory than all later steps.
+    model.baked.reset();
+    model.compressed.reset();
+    discard_transfer(model.document);
+    discard_lobes(model.document);
     const TraceScene scene(model.scene, std::move(textures), {.solid = solid, .threads = a.threads});
     if (suns_are_separate)
-        add_suns(scene, light.split.suns, {.rays = a.rays, .threads = a.threads}, bar.progress(), radiance);
+        add_direct_suns(scene, light.split.suns, {.rays = a.rays, .threads = a.threads}, bar.progress(),
+                        radiance);
     if (a.colors == ColorKind::albedo) {
         const std::vector<glm::vec3> colors = base_colors(scene.surfaces());
         for (std::size_t p = 0; p < radiance.size(); ++p)

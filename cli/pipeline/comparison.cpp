@@ -23,7 +23,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 namespace prt::pipeline {
 namespace {
@@ -185,8 +184,8 @@ class Comparison {
 public:
     Comparison(const ComparisonOptions& a, SceneFile& baked)
         : a_(a), baked_(baked), model_(load_scene_file(a.shipped, a.reading)),
-          shipped_(candidate(matched(model_, baked, a), a.shipped)) {
-        about(a_.shipped, [&] { put_in_order_of(model_.scene, baked); });
+          shipped_(candidate(matched(model_, baked, a), a.shipped.path)) {
+        about(a_.shipped.path, [&] { put_in_order_of(model_.scene, baked); });
         areas_ = baked.lightmap ? baked.lightmap->areas : receiver_areas(baked.scene);
         edges_ = baked.lightmap ? baked.lightmap->edges : mesh_edges(baked.scene);
     }
@@ -218,7 +217,7 @@ public:
 
     void add_sizes(Report& report) const {
         add_figure(report, {"bytes_file_shipped", "file size of the shipped file, bytes"},
-                   static_cast<std::size_t>(std::filesystem::file_size(a_.shipped)));
+                   static_cast<std::size_t>(a_.shipped.size()));
         if (!model_.compressed)
             return;
         const ClusteredTransfer& t = model_.compressed->transfer;
@@ -286,7 +285,7 @@ public:
     /// and without textures, which would hide errors; then the error as in the figures, and clusters.
     void add_pictures(const LoadedLight& light, Report& report) const {
         const TraceScene scene(model_.scene,
-                               about(a_.shipped,
+                               about(a_.shipped.path,
                                      [&] {
                                          return load_textures(model_.scene, a_.reading.bad_textures,
                                                               TextureNeeds::visibility);
@@ -315,7 +314,7 @@ public:
 private:
     /// Reduces `model` to the receivers of `baked`, because compression fills texels outside surfaces.
     static const SceneFile& matched(SceneFile& model, const SceneFile& baked, const ComparisonOptions& a) {
-        check_belong_together(baked, a.baked, model, a.shipped);
+        check_belong_together(baked, a.baked, model, a.shipped.path);
         if (baked.lightmap && model.compressed)
             model.compressed->transfer = gather_texels(model.compressed->transfer, baked.lightmap->texels);
         return model;

@@ -11,7 +11,8 @@
 namespace prt::pipeline {
 
 struct ComparisonOptions {
-    Path baked, shipped;
+    Path baked;
+    FileSource shipped;
     ReadingOptions reading; ///< options for `shipped`
     bool pictures = false;  ///< pictures of both and their difference, under the light with the
                             ///< largest error

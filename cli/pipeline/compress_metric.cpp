@@ -30,12 +30,12 @@ std::optional<LightFamily> family_of(MetricChoice choice) {
     return std::nullopt;
 }
 
-/// All ways in which the lightings are used.
-std::vector<Lighting> as_used(const std::vector<Lighting>& lightings, const TransferLayout& layout) {
+/// Returns all lightings of all uses.
+std::vector<Lighting> as_used(const std::vector<LightingUses>& lights) {
     std::vector<Lighting> all;
-    for (const Lighting& lighting : lightings)
-        for (LightingUse& use : uses_of(lighting, layout))
-            all.push_back(std::move(use.lighting));
+    for (const LightingUses& uses : lights)
+        for (const LightingUse& use : uses)
+            all.push_back(use.lighting);
     return all;
 }
 
@@ -45,7 +45,7 @@ std::vector<Lighting> skies_to_promise(const std::vector<Lighting>& given, std::
     if (layout.distant_terms().empty())
         return {};
     std::vector<Lighting> skies =
-        given.empty() && family ? as_used(members_of_family(*family, layout.order), layout) : given;
+        given.empty() && family ? as_used(uses_of(members_of_family(*family, layout.order), layout)) : given;
     for (Lighting& sky : skies)
         sky.lamps.assign(layout.lamps(), glm::vec3(0));
     return skies;
@@ -98,25 +98,23 @@ void promise(ErrorTerms& terms, Budget& budget) {
         budget.skies_of_jumps = std::move(terms.given);
 }
 
-std::vector<Lighting> given_lights(const MetricArguments& arguments, const TransferLayout& layout,
-                                   int threads) {
-    std::vector<Lighting> lights;
+std::vector<LightingUses> given_lights(const MetricArguments& arguments, const TransferLayout& layout,
+                                       int threads) {
+    const SunCount suns = layout.distant_terms().size() < 2 ? SunCount{0} : SunCount{std::nullopt};
+    std::vector<LightingUses> lights;
     for (const Path& path : arguments.lights) {
-        Lighting lighting =
-            layout.distant_terms().size() < 2
-                ? Lighting{load_light(path, layout.order, {0}, arguments.light_options, threads).sky}
-                : lighting_of(
-                      load_light(path, layout.order, {std::nullopt}, arguments.light_options, threads));
+        LoadedLight light = load_light(path, layout.order, suns, arguments.light_options, threads);
+        Lighting lighting = lighting_of(light);
         lighting.name = path.filename().string();
-        lights.push_back(std::move(lighting));
+        lights.push_back(uses_of(lighting, std::move(light.combined), layout));
     }
     return lights;
 }
 
-ErrorTerms error_terms(const MetricArguments& arguments, const std::vector<Lighting>& given,
+ErrorTerms error_terms(const MetricArguments& arguments, const std::vector<LightingUses>& given,
                        const TransferView& transfer, std::span<const float> areas, int threads) {
     const TransferLayout& layout = transfer.layout();
-    const std::vector<Lighting> lightings = as_used(given, layout);
+    const std::vector<Lighting> lightings = as_used(given);
     const auto family = family_of(arguments.metric);
     ErrorTerms terms{{}, skies_to_promise(lightings, family, layout), {}, {}};
     terms.covers = coverage(arguments, layout, terms.promised.size());

@@ -29,11 +29,11 @@ struct ErrorTerms {
 /// Makes `budget` apply to the lightings of `terms`.
 void promise(ErrorTerms& terms, Budget& budget);
 
-/// Returns the `--lights`, with separate suns if the transfer has a separate direct term.
-std::vector<Lighting> given_lights(const MetricArguments& arguments, const TransferLayout& layout,
-                                   int threads);
+/// Returns the uses of the `--lights`, with separate suns if the transfer has a separate direct term.
+std::vector<LightingUses> given_lights(const MetricArguments& arguments, const TransferLayout& layout,
+                                       int threads);
 
-ErrorTerms error_terms(const MetricArguments& arguments, const std::vector<Lighting>& given,
+ErrorTerms error_terms(const MetricArguments& arguments, const std::vector<LightingUses>& given,
                        const TransferView& transfer, std::span<const float> areas, int threads);
 
 } // namespace prt::pipeline

@@ -124,8 +124,8 @@ void add_level_errors(const LevelFiles& files, const std::vector<LoadedLight>& l
     std::optional<LeveledModel> baked = about(files.baked_path, [&] { return leveled_model(files.baked); });
     if (!baked)
         return;
-    const std::optional<LeveledModel> shipped = about(
-        files.shipped_path, [&] { return leveled_model(load_gltf(files.shipped_path, files.reading)); });
+    const std::optional<LeveledModel> shipped =
+        about(files.shipped.path, [&] { return leveled_model(files.shipped.read(files.reading)); });
     if (shipped && shipped->scene.scene.receivers() != baked->scene.scene.receivers()) {
         report.notes.emplace_back(
             "errors of coarser levels of detail: only one of the files shares transfer between instances");
@@ -136,7 +136,7 @@ void add_level_errors(const LevelFiles& files, const std::vector<LoadedLight>& l
             "errors of coarser levels of detail: the shipped file has no transfer for them");
         return;
     }
-    about(files.shipped_path, [&] {
+    about(files.shipped.path, [&] {
         baked->transfer = in_order_of(shipped->scene.scene, baked->scene.scene, baked->transfer);
         const LevelMeter meter(std::move(baked->transfer), shipped->transfer, lights, files.threads);
         report.tables.push_back(levels_table(meter.measure(shipped->scene), lights));

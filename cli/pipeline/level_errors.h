@@ -13,7 +13,8 @@ namespace prt::pipeline {
 
 struct LevelFiles {
     const GltfDocument& baked;
-    Path baked_path, shipped_path;
+    Path baked_path;
+    FileSource shipped;
     ReadingOptions reading;
     int threads = 0;
 };

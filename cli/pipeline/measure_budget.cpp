@@ -71,7 +71,7 @@ void add_budget(BudgetRequest request, SceneFile& baked, Report& report, const H
     if (!request.shipped.empty())
         shipped = load_scene_file(request.shipped, request.reading);
     if (shipped)
-        check_belong_together(baked, request.baked, *shipped, request.shipped);
+        check_belong_together(baked, request.baked, *shipped, request.shipped.path);
     if (shipped && !shipped->compressed)
         throw Error(request.shipped.string() +
                     ": is not compressed; an error budget needs a bake and its compressed file");

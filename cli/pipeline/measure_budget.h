@@ -12,7 +12,8 @@ namespace prt::pipeline {
 
 /// Input of `add_budget`.
 struct BudgetRequest {
-    Path baked, shipped;    ///< shipped: empty if there is none
+    Path baked;
+    FileSource shipped;     ///< empty if there is none
     ReadingOptions reading; ///< options for `shipped`
     BudgetLightOptions lights;
     std::vector<std::string> no_shadow; ///< materials that the bake let light through

@@ -94,8 +94,8 @@ std::optional<LightmapOfFile> read_texels(const GltfDocument& document, const Sc
 
 } // namespace
 
-SceneFile load_scene_file(const Path& path, const ReadingOptions& options) {
-    return scene_file_of(load_gltf(path, options), path, options.notify, options.shared);
+SceneFile load_scene_file(const FileSource& file, const ReadingOptions& options) {
+    return scene_file_of(file.read(options), file.path, options.notify, options.shared);
 }
 
 SceneFile scene_file_of(GltfDocument document, const Path& path, const Notify& notify,

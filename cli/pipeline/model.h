@@ -11,8 +11,13 @@
 #include "prt/gltf/transfer_gltf.h"
 #include "prt/image/image_file.h"
 
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace prt::pipeline {
@@ -59,9 +64,26 @@ struct SceneFile {
 };
 /// Returns the layout of a model with transfer.
 const TransferLayout& layout_of(const SceneFile& model);
+/// A glTF file, on disk or in memory.
+struct FileSource {
+    Path path; ///< also the name for messages, and the folder of external files; empty: no file
+    std::span<const std::byte> bytes; ///< content; empty: the file is on disk
+
+    FileSource() = default;
+    FileSource(Path of, std::span<const std::byte> content = {}) : path(std::move(of)), bytes(content) {}
+    bool empty() const { return path.empty(); }
+    std::string string() const { return path.string(); }
+    /// Returns the size of the file in bytes. Throws std::filesystem::filesystem_error.
+    std::uintmax_t size() const { return bytes.empty() ? std::filesystem::file_size(path) : bytes.size(); }
+    /// Reads the file. Throws `Error`.
+    GltfDocument read(const GltfOptions& options) const {
+        return bytes.empty() ? load_gltf(path, options) : parse_gltf(bytes, path, options);
+    }
+};
+
 /// Opens a file. A model without transfer sends the notices of its scene. Throws `Error` if any data of
 /// prtkit in the file are damaged.
-SceneFile load_scene_file(const Path& path, const ReadingOptions& options = {});
+SceneFile load_scene_file(const FileSource& file, const ReadingOptions& options = {});
 /// Returns the model of a document that was read from `path`.
 SceneFile scene_file_of(GltfDocument document, const Path& path, const Notify& notify = {},
                         SharedTransfer shared = SharedTransfer::expand);
