@@ -7,6 +7,7 @@
 #include "bake/gltf/encode_glb.h"
 #include "bake/gltf/encode_vertices.h"
 #include "bake/gltf/lights.h"
+#include "bake/gltf/mesh_file.h"
 #include "bake/gltf/repair_vertices.h"
 #include "bake/gltf/reparse.h"
 #include "bake/gltf/side_files.h"
@@ -48,11 +49,10 @@ namespace {
 /// Returns the name of another scene format by suffix.
 std::string_view other_format(const std::filesystem::path& path) {
     static constexpr std::pair<std::string_view, std::string_view> kFormats[] = {
-        {".obj", "Wavefront OBJ"}, {".ply", "PLY"},       {".fbx", "FBX"}, {".stl", "STL"},
-        {".dae", "COLLADA"},       {".blend", "Blender"}, {".usd", "USD"}, {".usda", "USD"},
-        {".usdc", "USD"},          {".usdz", "USD"},      {".3ds", "3ds"}, {".abc", "Alembic"},
-        {".max", "3ds Max"},       {".ma", "Maya"},       {".mb", "Maya"}, {".x", "DirectX"},
-        {".gltf2", "glTF"}};
+        {".fbx", "FBX"}, {".stl", "STL"},     {".dae", "COLLADA"}, {".blend", "Blender"},
+        {".usd", "USD"}, {".usda", "USD"},    {".usdc", "USD"},    {".usdz", "USD"},
+        {".3ds", "3ds"}, {".abc", "Alembic"}, {".max", "3ds Max"}, {".ma", "Maya"},
+        {".mb", "Maya"}, {".x", "DirectX"},   {".gltf2", "glTF"}};
     std::string suffix = path.extension().string();
     std::transform(suffix.begin(), suffix.end(), suffix.begin(),
                    [](unsigned char c) { return std::tolower(c); });
@@ -358,7 +358,14 @@ GltfDocument parse_gltf(std::span<const std::byte> whole_file, const std::filesy
     contents->leave_out_lobes = options.leave_out_lobes;
     contents->limit_remedy = "; raise it with --memory-limit";
     try {
-        const std::span<const std::byte> file = without_tile(whole_file, contents->notices);
+        std::span<const std::byte> file = without_tile(whole_file, contents->notices);
+        std::vector<std::byte> converted;
+        if (is_mesh_file(path) && !is_glb(file)) {
+            if (is_lfs_pointer(file))
+                throw Error(kLfsRemedy);
+            converted = mesh_glb(read_mesh_file(file, path, contents->notices), path.stem().string());
+            file = converted;
+        }
         check_is_gltf(file, path);
         const bool binary = is_glb(file);
         const std::string_view text =
