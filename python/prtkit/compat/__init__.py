@@ -1,0 +1,1 @@
+"""Replacements for files that other projects carry."""
