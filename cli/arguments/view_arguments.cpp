@@ -68,7 +68,7 @@ void add_view(CLI::App* command, View& view) {
                   "position of the camera in the scene, metres\n"
                   "+Y is up; the camera must not look straight up or down\n"
                   "default: the whole scene is visible with --fov, --size and the default of --look-at\n"
-                  "  a given --look-at turns this camera, but does not move it",
+                  "  a given --look-at rotates this camera, but does not move it",
                   "automatic");
     vector_option(command, "--look-at", view.look_at,
                   "point that the camera looks at, metres\n"

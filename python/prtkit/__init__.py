@@ -13,6 +13,7 @@ Functions that take `threads` use all hardware threads for 0. `progress` is a fu
 and of its finished fraction, 0 to 1.
 """
 
+from . import _prtkit
 from ._light import Light, Sun, project, separate_suns
 from ._model import Model, from_arrays, load
 from ._prtkit import Cancelled, Error
@@ -31,7 +32,7 @@ from ._work import (
     sweep,
 )
 
-__version__ = "0.1.0"
+__version__ = _prtkit.version
 
 __all__ = [
     "CONVENTIONS",

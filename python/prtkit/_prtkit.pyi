@@ -3,6 +3,8 @@ from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
 import numpy as np
 from numpy.typing import NDArray
 
+version: str
+
 class Error(RuntimeError): ...
 class Cancelled(RuntimeError): ...
 

@@ -8,9 +8,14 @@
 
 #include <pybind11/pybind11.h>
 
+#include <string>
+
 PYBIND11_MODULE(_prtkit, module) {
     namespace py = pybind11;
     module.doc() = "Functions in C++ of the package prtkit; use the package itself.";
+    module.attr("version") = std::to_string(PRTKIT_VERSION_MAJOR) + "." +
+                             std::to_string(PRTKIT_VERSION_MINOR) + "." +
+                             std::to_string(PRTKIT_VERSION_PATCH);
     static const py::exception<prt::Error> error(module, "Error", PyExc_RuntimeError);
     static const py::exception<prt::Cancelled> cancelled(module, "Cancelled", PyExc_RuntimeError);
     py::register_exception_translator([](std::exception_ptr thrown) {

@@ -22,7 +22,7 @@ PARTS = {
     "c": ("runtime/c", "runtime shader image load", "glm"),
     "render": ("runtime/render", "runtime image load", "glm"),
     "gl": ("runtime/render/gl", "runtime load render shader shaders", "glm epoxy glfw"),
-    "gltf": ("bake/gltf", "runtime load", "glm tinygltf nlohmann meshoptimizer draco"),
+    "gltf": ("bake/gltf", "runtime load", "glm tinygltf nlohmann meshoptimizer draco tinyobjloader"),
     "bake": ("bake", "runtime load gltf render device tracers shaders", "glm fmt embree Eigen stb"),
     "device": ("bake/device", "runtime bake", "glm fmt vulkan"),
     "trace_gpu": ("bake/trace_gpu", "runtime load gltf bake device shaders", "glm embree"),
@@ -35,6 +35,8 @@ PARTS = {
     "pipeline": ("cli/pipeline", "runtime shader fit image load gltf render gl bake tracers compress compress_study report",
                  "glm fmt nlohmann"),
     "cli": ("cli", "runtime shader fit image load gltf render gl bake device compress compress_study report pipeline", "glm fmt CLI nlohmann"),
+    # The Python module, over prt::pipeline.
+    "python": ("python", "runtime fit load gltf render bake compress compress_study report pipeline", "glm nlohmann pybind11"),
     "example_scenes": ("examples/scenes", "runtime image", "glm tinygltf"),
     "game": ("examples/game", "runtime shader fit image load gl", "glm epoxy"),
     # Applications of this repository, which may include private headers.
@@ -74,7 +76,7 @@ EXCEPTIONS = {
 PACKAGES = {  # prefixes of their headers
     "glm/": "glm", "ceres/": "ceres", "Eigen/": "Eigen", "OpenEXR/": "OpenEXR", "Imath": "OpenEXR", "Imf": "OpenEXR",
     "stb/": "stb", "zlib": "zlib", "tiny_gltf": "tinygltf", "nlohmann/": "nlohmann", "meshoptimizer": "meshoptimizer",
-    "draco/": "draco",
+    "draco/": "draco", "tiny_obj_loader": "tinyobjloader", "pybind11/": "pybind11",
     "epoxy/": "epoxy", "webp/": "libwebp", "avif/": "libavif", "GLFW/": "glfw", "embree3/": "embree", "fmt/": "fmt", "CLI/": "CLI",
     "imgui": "imgui", "backends/imgui": "imgui", "vulkan/vulkan_raii": "vulkan",
 }

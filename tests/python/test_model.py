@@ -15,9 +15,9 @@ SKY[0] = math.sqrt(4 * math.pi)  # white, radiance 1
 
 def program(*arguments):
     """Run prt, whose path is in the environment variable PRT."""
-    return subprocess.run(
-        [os.environ["PRT"], *map(str, arguments)], check=True, capture_output=True, text=True
-    )
+    environment = {name: value for name, value in os.environ.items() if name != "LD_PRELOAD"}
+    command = [os.environ["PRT"], *map(str, arguments)]
+    return subprocess.run(command, check=True, capture_output=True, text=True, env=environment)
 
 
 def test_arrays_stay_in_their_order(table):
