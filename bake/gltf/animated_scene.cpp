@@ -60,20 +60,23 @@ bool has_animations(const GltfDocument& document) {
     return !document.contents().parsed.animations.empty();
 }
 
-AnimatedScene::AnimatedScene(const GltfDocument& document) {
+AnimatedScene::AnimatedScene(const GltfDocument& document, ReadLevels levels) {
     const GltfContents& contents = document.contents();
     try {
-        Geometry extraction = extract(contents, Keep::moving);
-        scene_ = std::move(extraction.scene);
-        vertices_ = std::move(extraction.moving);
+        Geometry geometry = levels == ReadLevels::all ? extract_with_levels(contents, Keep::moving)
+                                                      : extract(contents, Keep::moving);
+        vertices_ = std::move(geometry.moving);
+        NodeTree tree = node_tree(contents.model);
+        tree.order.insert(tree.order.end(), geometry.nodes.outside.begin(), geometry.nodes.outside.end());
+        tree_ = std::make_shared<const NodeTree>(std::move(tree));
+        leveled_ = leveled_scene(contents, std::move(geometry));
         for (std::size_t skin = 0; skin < contents.model.skins.size(); ++skin)
             skins_.push_back(read_skin(contents.model, static_cast<int>(skin)));
         animations_ = read_animations(contents);
-        tree_ = std::make_shared<const NodeTree>(node_tree(contents.model));
         const std::vector<glm::dmat4> standing = rest();
         for (std::size_t array = 0; array < vertices_.size(); ++array) {
-            split_as(scene_.vertex_arrays[array], vertices_[array]);
-            complete_normals(scene_.vertex_arrays[array], matrices(array, standing), vertices_[array]);
+            split_as(scene().vertex_arrays[array], vertices_[array]);
+            complete_normals(scene().vertex_arrays[array], matrices(array, standing), vertices_[array]);
         }
     } catch (const std::exception& error) { // errors of prtkit and of the standard library
         throw Error(contents.path.string() + ": " + in_plain_words(error));
@@ -104,7 +107,7 @@ std::vector<glm::dmat4> AnimatedScene::matrices(std::size_t vertex_array,
 }
 
 Scene AnimatedScene::posed(std::span<const glm::dmat4> nodes, const glm::dmat4& placement) const {
-    Scene scene = scene_;
+    Scene scene = leveled_.scene;
     scene.origin = glm::dvec3(0);
     scene.lights.clear();
     for (std::size_t array = 0; array < vertices_.size(); ++array) {
@@ -120,6 +123,12 @@ Scene AnimatedScene::posed(std::span<const glm::dmat4> nodes, const glm::dmat4& 
         }
     }
     return scene;
+}
+
+LeveledScene AnimatedScene::posed_levels(std::span<const glm::dmat4> nodes, const glm::dmat4& placement,
+                                         std::vector<LeveledNode> of) const {
+    return {
+        posed(nodes, placement), leveled_.finest_receivers, leveled_.finest_primitives, std::move(of), {}};
 }
 
 } // namespace prt

@@ -1,7 +1,6 @@
 // Rewrites the meshes of a document.
 #include "bake/gltf/edit_meshes.h"
 
-#include "bake/gltf/make_meshes_unique.h"
 #include "bake/gltf/reparse.h"
 #include "bake/gltf/write_set.h"
 
@@ -10,11 +9,8 @@
 namespace prt {
 
 GltfDocument edit_meshes(GltfDocument document, const Scene& scene,
-                         const std::function<void(GltfContents&)>& edit) {
-    named(document, [&](GltfContents& contents) {
-        make_meshes_unique(contents, scene);
-        contents.remove_transfer();
-    });
+                         const std::function<void(GltfContents&)>& edit, ChangedMeshes changed) {
+    named(document, [&](GltfContents& contents) { meshes_without_transfer(contents, scene, changed); });
     document = reparse(document);
     named(document, edit);
     return reparse(document);

@@ -49,9 +49,9 @@ Geometry extract(const GltfContents& contents, Keep keep) {
     return complete(contents, std::move(geometry), range);
 }
 
-Geometry extract_with_levels(const GltfContents& contents) {
+Geometry extract_with_levels(const GltfContents& contents, Keep keep) {
     UnitRange range;
-    Geometry geometry = extract_geometry_with_levels(contents, range);
+    Geometry geometry = extract_geometry_with_levels(contents, range, keep);
     return complete(contents, std::move(geometry), range);
 }
 

@@ -67,23 +67,36 @@ bool has_levels(const GltfDocument& document) {
 
 LeveledScene extract_levels(const GltfDocument& document) {
     return named(document, [](const GltfContents& contents) {
-        Geometry extraction = extract_with_levels(contents);
-        LeveledScene result;
-        result.notices = std::move(extraction.nodes.notices);
-        for (const NodeLevels& levels : extraction.nodes.levels) {
-            LeveledNode node = leveled_node(contents, extraction, levels);
-            if (!node.coarser.empty())
-                result.nodes.push_back(std::move(node));
-        }
-        result.finest_primitives = extraction.finest_primitives;
-        std::set<std::size_t> arrays;
-        for (std::size_t p = 0; p < extraction.finest_primitives; ++p)
-            arrays.insert(extraction.scene.primitives[p].vertices);
-        for (const std::size_t array : arrays)
-            result.finest_receivers += extraction.scene.vertex_arrays[array].size();
-        result.scene = std::move(extraction.scene);
-        return result;
+        return leveled_scene(contents, extract_with_levels(contents, Keep::scene));
     });
+}
+
+LeveledScene leveled_scene(const GltfContents& contents, Geometry geometry) {
+    LeveledScene result;
+    result.notices = std::move(geometry.nodes.notices);
+    for (const NodeLevels& levels : geometry.nodes.levels) {
+        LeveledNode node = leveled_node(contents, geometry, levels);
+        if (!node.coarser.empty())
+            result.nodes.push_back(std::move(node));
+    }
+    result.finest_primitives = geometry.finest_primitives;
+    std::set<std::size_t> arrays;
+    for (std::size_t p = 0; p < geometry.finest_primitives; ++p)
+        arrays.insert(geometry.scene.primitives[p].vertices);
+    for (const std::size_t array : arrays)
+        result.finest_receivers += geometry.scene.vertex_arrays[array].size();
+    result.scene = std::move(geometry.scene);
+    return result;
+}
+
+void keep_levels(std::vector<LeveledNode>& nodes, const Scene& scene,
+                 const std::function<bool(const Primitive&)>& keep) {
+    for (LeveledNode& node : nodes)
+        std::erase_if(node.coarser, [&](const CoarserLevel& level) {
+            return std::ranges::none_of(level.primitives,
+                                        [&](std::size_t p) { return keep(scene.primitives[p]); });
+        });
+    std::erase_if(nodes, [](const LeveledNode& node) { return node.coarser.empty(); });
 }
 
 bool levels_have_transfer(const GltfDocument& document, const LeveledScene& scene) {

@@ -6,7 +6,6 @@
 #include "bake/gltf/write_set.h"
 #include "runtime/load/lobe_transfer.h"
 
-#include <algorithm>
 #include <string>
 
 namespace prt {
@@ -34,32 +33,14 @@ Json profiles_json(GltfContents& contents, const LobeModel& model) {
     return json;
 }
 
-/// Prepares the meshes for lobes and removes the transfer of vertices that get lobes. Returns the JSON of
-/// each primitive of `scene`.
-std::vector<Json*> primitives_for_lobes(GltfContents& contents, const Scene& scene) {
-    std::vector<Json*> primitives = make_meshes_unique(contents, scene, ChangedMeshes::with_lobes), figure;
-    for (std::size_t i = 0; i < primitives.size(); ++i) {
-        if (!scene.vertex_arrays[scene.primitives[i].vertices].lobes)
-            continue;
-        figure.push_back(primitives[i]);
-        Json& node = contents.json["nodes"][static_cast<std::size_t>(scene.primitives[i].node)];
-        if (extension_of(node, kInstancesExtension))
-            erase_extension(node, kInstancesExtension);
-    }
-    if (figure.size() == primitives.size())
-        contents.remove_transfer();
-    else
-        contents.remove_transfer_of(figure);
-    return primitives;
-}
-
 } // namespace
 
 void write_lobes(GltfDocument& document, const Scene& scene, const StoredLobes& lobes) {
     check_lobes(lobes.model);
     named(document, [&](GltfContents& contents) {
         contents.remove_lobes();
-        const std::vector<Json*> primitives = primitives_for_lobes(contents, scene);
+        const std::vector<Json*> primitives =
+            meshes_without_transfer(contents, scene, ChangedMeshes::with_lobes);
         std::vector<Json> attributes;
         for (const VertexArray& vertices : scene.vertex_arrays) {
             Json& added = attributes.emplace_back(Json::object());

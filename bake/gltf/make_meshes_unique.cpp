@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 
 namespace prt {
@@ -124,6 +125,27 @@ std::vector<Json*> make_meshes_unique(GltfContents& contents, const Scene& scene
         result.push_back(&json);
     }
     return result;
+}
+
+std::vector<Json*> meshes_without_transfer(GltfContents& contents, const Scene& scene,
+                                           ChangedMeshes changed) {
+    std::vector<Json*> primitives = make_meshes_unique(contents, scene, changed), taken;
+    std::set<int> nodes;
+    for (std::size_t i = 0; i < primitives.size(); ++i)
+        if (is_changed(scene, scene.primitives[i], changed)) {
+            taken.push_back(primitives[i]);
+            nodes.insert(scene.primitives[i].node);
+        }
+    if (taken.size() == primitives.size()) {
+        contents.remove_transfer();
+        return primitives;
+    }
+    contents.remove_transfer_of(taken);
+    for (const int node : nodes)
+        if (Json& json = contents.json["nodes"][static_cast<std::size_t>(node)];
+            extension_of(json, kInstancesExtension))
+            erase_extension(json, kInstancesExtension);
+    return primitives;
 }
 
 } // namespace prt

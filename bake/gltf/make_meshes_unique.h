@@ -16,6 +16,11 @@ enum class ChangedMeshes { all, with_lobes };
 std::vector<Json*> make_meshes_unique(GltfContents& contents, const Scene& scene,
                                       ChangedMeshes changed = ChangedMeshes::all);
 
+/// Calls `make_meshes_unique`, and removes the transfer of the `changed` nodes; if these are all nodes of the
+/// scene, also that of all others in the file. Lobes and the transfer of probes remain.
+std::vector<Json*> meshes_without_transfer(GltfContents& contents, const Scene& scene,
+                                           ChangedMeshes changed = ChangedMeshes::all);
+
 /// Rewrites a primitive: vertex i is a copy of vertex source[i] with normals[i], in all attributes and morph
 /// targets except tangents and changes of normals.
 void replace_vertices(GltfContents& contents, Json& primitive, const std::vector<std::uint32_t>& source,

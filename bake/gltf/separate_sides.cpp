@@ -247,9 +247,10 @@ private:
 } // namespace
 
 GltfDocument with_separate_sides(GltfDocument document, const Scene& scene,
-                                 const std::vector<bool>& triangles) {
-    return edit_meshes(std::move(document), scene,
-                       [&](GltfContents& contents) { SideSeparator(contents, scene, triangles).separate(); });
+                                 const std::vector<bool>& triangles, ChangedMeshes changed) {
+    return edit_meshes(
+        std::move(document), scene,
+        [&](GltfContents& contents) { SideSeparator(contents, scene, triangles).separate(); }, changed);
 }
 
 GltfDocument with_separate_sides_of_meshes(SharedDocument shared, const Scene& stored,

@@ -16,8 +16,7 @@ namespace {
 
 /// Returns the members "maps" of the set and of the primitives of `scene`; changes the meshes.
 Json write_maps(GltfContents& contents, const Scene& scene, const LightmapLayout& layout) {
-    const std::vector<Json*> primitives = make_meshes_unique(contents, scene);
-    contents.remove_transfer();
+    const std::vector<Json*> primitives = meshes_without_transfer(contents, scene);
     for (std::size_t p = 0; p < primitives.size(); ++p)
         if (layout.placements[p].map != kNoMap)
             extensions_of(*primitives[p])[kTransferExtension] = {{"map", layout.placements[p].map},

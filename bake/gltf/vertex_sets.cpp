@@ -111,8 +111,7 @@ void check_numbers(const GltfContents& contents, std::size_t numbers, std::size_
 
 void write_transfer(GltfDocument& document, const Scene& scene, const BakedTransfer& baked) {
     named(document, [&](GltfContents& contents) {
-        const std::vector<Json*> primitives = make_meshes_unique(contents, scene);
-        contents.remove_transfer();
+        const std::vector<Json*> primitives = meshes_without_transfer(contents, scene);
         const Transfer& transfer = baked.transfer;
         std::vector<Json> views;
         for (const VertexArray& vertices : scene.vertex_arrays)
@@ -132,8 +131,7 @@ void write_transfer(GltfDocument& document, const Scene& scene, const BakedTrans
 
 void write_clustered(GltfDocument& document, const Scene& scene, const CompressedTransfer& compressed) {
     named(document, [&](GltfContents& contents) {
-        const std::vector<Json*> primitives = make_meshes_unique(contents, scene);
-        contents.remove_transfer();
+        const std::vector<Json*> primitives = meshes_without_transfer(contents, scene);
         std::vector<Json> attributes;
         for (const VertexArray& vertices : scene.vertex_arrays)
             attributes.push_back(vertices.lobes ? Json::object()

@@ -63,10 +63,7 @@ int free_texcoord(const Scene& scene) {
 
 GltfDocument with_texcoords(GltfDocument document, const Scene& scene, std::span<const VertexSplit> splits,
                             int set) {
-    named(document, [&](GltfContents& contents) {
-        make_meshes_unique(contents, scene);
-        contents.remove_transfer();
-    });
+    named(document, [&](GltfContents& contents) { meshes_without_transfer(contents, scene); });
     document = reparse(document);
     named(document, [&](GltfContents& contents) {
         SplitWriter writer(contents);

@@ -57,12 +57,11 @@ void add_back_sides(CLI::App* command, BackSides& sides, const std::string& deta
            "auto");
 }
 
-void add_levels(CLI::App* command, LevelMode& mode) {
+void add_levels(CLI::App* command, LevelMode& mode, const std::string& details) {
     choice(command, "--levels", mode, kLevelModes,
            "transfer of coarser levels: from level 0, own bakes, or none\n"
-           "levels of detail: nodes of MSFT_lod, or sibling nodes with names as ROCK_LOD0, ROCK_LOD1\n"
-           "--texels: coarser levels get no lightmap\n"
-           "--instances shared and auto: with carry and own, instances that have levels: as own",
+           "levels of detail: nodes of MSFT_lod, or sibling nodes with names as ROCK_LOD0, ROCK_LOD1" +
+               details,
            "carry");
 }
 

@@ -20,8 +20,8 @@ void add_no_shadow(CLI::App* command, std::vector<std::string>& materials, const
 /// Adds --back-sides. `details`: more lines of its help, each after a newline.
 void add_back_sides(CLI::App* command, BackSides& sides, const std::string& details = "");
 
-/// Adds --levels.
-void add_levels(CLI::App* command, LevelMode& mode);
+/// Adds --levels. `details`: more lines of its help, each after a newline.
+void add_levels(CLI::App* command, LevelMode& mode, const std::string& details);
 
 /// Adds --instances and its related options.
 void add_instances(CLI::App* command, InstanceArguments& arguments);

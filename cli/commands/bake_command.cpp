@@ -309,7 +309,9 @@ void add_bake(CLI::App& app, Session& session) {
                           ->excludes(command->get_option("--fit")); // texels measure light at their centers
     a.volume_option = add_volume(command, a.volume);
     add_instances(command, a.instances);
-    add_levels(command, a.kept.levels);
+    add_levels(command, a.kept.levels,
+               "\n--texels: coarser levels get no lightmap\n"
+               "--instances shared and auto: with carry and own, instances that have levels: as own");
     choice(command, "--stored-lobes", a.kept.lobes, kLobesOfFile,
            "lobes of prt lobes that the scene contains", "keep");
     choice(command, "--storage", a.options.memory.storage, kStorages,

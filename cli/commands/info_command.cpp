@@ -200,17 +200,25 @@ void add_level_figures(const GltfDocument& document, Report& report) {
                 by_level[level.level][0] += scene.scene.primitives[p].triangles.size();
         }
     const bool transfer = levels_have_transfer(document, scene);
+    std::vector<LeveledNode> moving = scene.nodes;
+    keep_levels(moving, scene.scene,
+                [&](const Primitive& p) { return scene.scene.vertex_arrays[p.vertices].lobes; });
     Json list = Json::array();
     std::string words;
     for (const auto& [level, counts] : by_level) {
         list.push_back({{"level", level}, {"triangles", counts[0]}, {"vertices", counts[1]}});
         words += fmt::format("{}level {} has {} triangles", words.empty() ? "" : ", ", level, counts[0]);
     }
-    add_figures(
-        report,
-        {{"levels", {{"nodes", scene.nodes.size()}, {"by_level", std::move(list)}, {"transfer", transfer}}}});
+    add_figures(report, {{"levels",
+                          {{"nodes", scene.nodes.size()},
+                           {"by_level", std::move(list)},
+                           {"transfer", transfer},
+                           {"nodes_with_lobes", moving.size()}}}});
     report.sentences.push_back(fmt::format("levels of detail of {}: {}; {}", counted("levels/nodes", "node"),
-                                           words, transfer ? "with transfer" : "without transfer"));
+                                           words,
+                                           transfer         ? "with transfer"
+                                           : moving.empty() ? "without transfer"
+                                                            : "without transfer, with lobes"));
 }
 
 void run(InfoArguments a, Session& session) {

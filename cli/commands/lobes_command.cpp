@@ -4,8 +4,11 @@
 
 #include "bake/gltf/encode_glb.h"
 #include "cli/arguments/options.h"
+#include "cli/arguments/scene_arguments.h"
 #include "cli/arguments/suboptions.h"
 #include "cli/arguments/trace_arguments.h"
+#include "cli/pipeline/back_sides.h"
+#include "cli/pipeline/level_report.h"
 #include "cli/pipeline/lobe_errors.h"
 #include "cli/program/outputs.h"
 #include "cli/program/session.h"
@@ -30,7 +33,15 @@ struct LobesArguments {
     int poses = 8, frames = 6;
     PoseBakeOptions bake;
     LobeFitOptions fit;
+    BackSides back_sides = BackSides::automatic;
     ReadingOptions reading;
+};
+
+/// The model, its poses, and its scene with VertexArray::lobes of vertices that move.
+struct Figure {
+    AnimatedScene model;
+    std::vector<ModelPose> poses;
+    Scene scene;
 };
 
 /// Throws `Error` if a skinned mesh has no weights: the skin could not rotate its transfer.
@@ -74,12 +85,28 @@ Scene with_figure(const AnimatedScene& model, std::span<const ModelPose> poses) 
     return scene;
 }
 
+/// Reads the figure. Throws `Error` if none of its vertices can move.
+Figure figure_in(const GltfDocument& document, const LobesArguments& a) {
+    AnimatedScene model(document, a.bake.levels == LevelMode::ignore ? ReadLevels::finest : ReadLevels::all);
+    check_weights(model);
+    std::vector<ModelPose> poses = poses_of(model, a.poses, a.animation);
+    Scene scene = with_figure(model, poses);
+    return {std::move(model), std::move(poses), std::move(scene)};
+}
+
 /// Returns the receivers of the vertices that get lobes.
-std::vector<std::size_t> figure_of(const Scene& scene) {
+std::vector<std::size_t> receivers_of(const Figure& figure) {
     std::vector<std::size_t> receivers;
-    for (const VertexArray& vertices : scene.vertex_arrays)
+    for (const VertexArray& vertices : figure.scene.vertex_arrays)
         for (std::size_t v = 0; vertices.lobes && v < vertices.size(); ++v)
             receivers.push_back(vertices.first_receiver + v);
+    return receivers;
+}
+
+/// Returns the receivers of level 0 that get lobes.
+std::vector<std::size_t> finest_receivers_of(const Figure& figure) {
+    std::vector<std::size_t> receivers = receivers_of(figure);
+    std::erase_if(receivers, [&](std::size_t r) { return r >= figure.model.leveled().finest_receivers; });
     return receivers;
 }
 
@@ -102,15 +129,14 @@ struct Made {
     double fit_error = 0, coded_error = 0; ///< against the mean, before and after bytes
 };
 
-Made make_lobes(const LobesArguments& a, const AnimatedScene& model, const Scene& scene,
-                std::span<const ModelPose> poses, Session& session) {
+Made make_lobes(const LobesArguments& a, const Figure& figure, Session& session) {
     Made made;
-    const std::vector<std::size_t> figure = figure_of(scene);
-    made.figure = figure.size();
+    const std::vector<std::size_t> receivers = receivers_of(figure);
+    made.figure = receivers.size();
     const Stopwatch baking;
     {
         ProgressBar bar = session.progress_bar("baking poses");
-        made.mean = mean_of_poses(model, poses, a.bake, bar.progress());
+        made.mean = mean_of_poses(figure.model, figure.poses, a.bake, bar.progress());
     }
     made.bake_seconds = baking.seconds();
     const Stopwatch fitting;
@@ -118,7 +144,7 @@ Made make_lobes(const LobesArguments& a, const AnimatedScene& model, const Scene
     const std::size_t coefficients = made.mean.coefficients();
     std::vector<double> vectors;
     std::vector<float> areas;
-    for (const std::size_t receiver : figure) {
+    for (const std::size_t receiver : receivers) {
         const auto first = made.mean.vectors.begin() + static_cast<std::ptrdiff_t>(receiver * coefficients);
         vectors.insert(vectors.end(), first, first + static_cast<std::ptrdiff_t>(coefficients));
         areas.push_back(made.mean.areas[receiver]);
@@ -130,9 +156,10 @@ Made make_lobes(const LobesArguments& a, const AnimatedScene& model, const Scene
     made.fit_error = lobe_error(targets, fitted, a.fit);
     made.coded_error = lobe_error(targets, decoded(made.lobes), a.fit);
     const std::vector<LobeWord> words = std::exchange(made.lobes.words, {});
-    made.lobes.words.resize(scene.receivers() * made.lobes.lobes);
+    made.lobes.words.resize(figure.scene.receivers() * made.lobes.lobes);
     for (std::size_t i = 0; i < words.size(); ++i)
-        made.lobes.words[figure[i / made.lobes.lobes] * made.lobes.lobes + i % made.lobes.lobes] = words[i];
+        made.lobes.words[receivers[i / made.lobes.lobes] * made.lobes.lobes + i % made.lobes.lobes] =
+            words[i];
     return made;
 }
 
@@ -167,18 +194,19 @@ Report report_of(const LobesArguments& a, const Made& made, std::size_t poses) {
     return report;
 }
 
-void measure_frames(const LobesArguments& a, const AnimatedScene& model, const Scene& scene, const Made& made,
-                    Session& session, Report& report) {
+/// Measures the error of level 0.
+void measure_frames(const LobesArguments& a, const Figure& figure, const Made& made, Session& session,
+                    Report& report) {
     if (a.frames == 0)
         return;
     ProgressBar bar = session.progress_bar("measuring");
     PoseBakeOptions options = a.bake;
     options.seed += 0x51ed270b; // far from the seeds of the poses, which are consecutive
-    add_lobe_errors({.model = model,
-                     .figure = figure_of(scene),
+    add_lobe_errors({.model = figure.model,
+                     .figure = finest_receivers_of(figure),
                      .lobes = made.lobes,
                      .mean = made.mean,
-                     .frames = frames_of(model, a.frames, a.animation),
+                     .frames = frames_of(figure.model, a.frames, a.animation),
                      .options = options},
                     bar.progress(), report);
 }
@@ -204,6 +232,25 @@ void check_former_figure(const Scene& file, const Scene& scene) {
                     " not move in these poses; bake transfer first with prt bake --stored-lobes remove");
 }
 
+/// Gives the sides of double-sided surfaces of the figure separate vertices. Returns whether `document`
+/// changed.
+bool separate_backs(const LobesArguments& a, const Figure& figure, GltfDocument& document) {
+    return separate_sides_of_figure({.sides = a.back_sides,
+                                     .path = a.model,
+                                     .options = bake_options_of(a.bake),
+                                     .no_shadow = {},
+                                     .levels = a.bake.levels != LevelMode::ignore,
+                                     .notify = print_notices},
+                                    figure.model, figure.scene, figure.poses, document);
+}
+
+/// Adds the coarser levels of the figure to the report.
+void add_levels_of(const LobesArguments& a, const Figure& figure, const Made& made, Report& report) {
+    if (!made.mean.levels.levels.empty())
+        add_level_bake(
+            {{.nodes = moving_levels(figure.model, figure.poses)}, a.bake.levels, made.mean.levels}, report);
+}
+
 void run(LobesArguments a, Session& session) {
     check_device(a.bake.tracer);
     check_method(a.bake.tracer);
@@ -214,25 +261,28 @@ void run(LobesArguments a, Session& session) {
     set_band_costs(a.bake.order, a.fit);
     ModelToPassOn input = load_to_pass_on(a.model, a.reading);
     GltfDocument& document = input.document;
-    input.scene = {}; // frees memory: `model` has it
-    const AnimatedScene model(document);
+    input.scene = {}; // frees memory: the figure has it
     Report report;
     about(a.model, [&] {
-        check_weights(model);
-        const std::vector<ModelPose> poses = poses_of(model, a.poses, a.animation);
-        const Scene scene = with_figure(model, poses);
-        if (!moves(model, scene, poses))
+        Figure figure = figure_in(document, a);
+        print_notices(a.model.string(), figure.model.leveled().notices);
+        if (!moves(figure.model, figure.scene, figure.poses))
             print_notices(a.model.string(),
                           {"no vertex moves in these poses; use prt bake for a model that does not move"});
         if (input.has_transfer)
-            check_former_figure(model.scene(), scene);
-        const Made made = make_lobes(a, model, scene, poses, session);
-        report = report_of(a, made, poses.size());
-        note_the_rest(a, scene, made, input.has_transfer);
-        measure_frames(a, model, scene, made, session, report);
-        write_lobes(document, scene,
+            check_former_figure(figure.model.scene(), figure.scene);
+        if (separate_backs(a, figure, document))
+            figure = figure_in(document, a);
+        const Made made = make_lobes(a, figure, session);
+        report = report_of(a, made, figure.poses.size());
+        add_levels_of(a, figure, made, report);
+        note_the_rest(a, figure.scene, made, input.has_transfer);
+        measure_frames(a, figure, made, session, report);
+        if (finest_receivers_of(figure).size() == figure.model.leveled().finest_receivers)
+            discard_transfer(document); // levels that do not move may have some, but readers need level 0
+        write_lobes(document, figure.scene,
                     {made.lobes,
-                     {.poses = static_cast<int>(poses.size()),
+                     {.poses = static_cast<int>(figure.poses.size()),
                       .rays = made.mean.rays_per_vertex,
                       .bounces = a.bake.bounces,
                       .seed = a.bake.seed}});
@@ -302,6 +352,10 @@ void add_lobes(CLI::App& app, Session& session) {
         ->check(named);
     add_output(command, a.output, "write the model with its lobes to this file, .glb");
     add_quality(command, a);
+    add_back_sides(command, a.back_sides,
+                   "\nfor vertices that move; light of the sky in any of the poses, not of lamps");
+    add_levels(command, a.bake.levels,
+               "\nlevels that move get lobes, in each pose as requested; others keep their transfer");
     add_device(command, a.bake.tracer);
     add_seed(command, a.bake.seed);
     add_reading(command, a.reading);

@@ -24,8 +24,7 @@ std::string double_sided(const std::vector<bool>& triangles) {
 }
 
 /// All levels of detail; light passes the coarser ones.
-Scene scene_of_levels(const GltfDocument& document, const std::vector<std::string>& no_shadow) {
-    LeveledScene levels = extract_levels(document);
+Scene scene_of_levels(LeveledScene levels, const std::vector<std::string>& no_shadow) {
     Scene& scene = levels.scene;
     leave_out_shadows(scene, no_shadow);
     std::map<std::size_t, std::size_t> coarse; // copies of materials
@@ -41,6 +40,16 @@ Scene scene_of_levels(const GltfDocument& document, const std::vector<std::strin
     return std::move(scene);
 }
 
+/// Sends the notice about separate sides of `triangles`, and returns it.
+std::string note_separated(const SidesRequest& request, const std::vector<bool>& triangles,
+                           std::size_t added) {
+    std::string notice =
+        fmt::format("light reaches the back sides of {}; {} added for it (--back-sides shared adds none)",
+                    double_sided(triangles), counted(added, "vertex was", "vertices were"));
+    send(request.notify, request.path, {notice});
+    return notice;
+}
+
 /// Takes the scene of a document with separate sides of `triangles`, and sends a notice.
 void take_scene(const SidesRequest& request, const std::vector<bool>& triangles, const GltfDocument& document,
                 Scene& scene) {
@@ -49,13 +58,8 @@ void take_scene(const SidesRequest& request, const std::vector<bool>& triangles,
     separate.notices = std::move(scene.notices); // notices of the input file
     const std::size_t added = separate.receivers() - scene.receivers();
     scene = std::move(separate); // the one of the document, also where a variant culls all of the backs
-    if (added == 0)
-        return;
-    const std::string notice =
-        fmt::format("light reaches the back sides of {}; {} added for it (--back-sides shared adds none)",
-                    double_sided(triangles), counted(added, "vertex was", "vertices were"));
-    send(request.notify, request.path, {notice});
-    scene.notices.push_back(notice);
+    if (added > 0)
+        scene.notices.push_back(note_separated(request, triangles, added));
 }
 
 /// Returns the triangles of the stored scene that correspond to any of `triangles` of the flat scene.
@@ -91,7 +95,7 @@ void separate_sides(const SidesRequest& request, GltfDocument& document, Scene& 
     leave_out_shadows(scene, request.no_shadow);
     std::optional<Scene> levels;
     if (request.levels && has_levels(document))
-        levels = scene_of_levels(document, request.no_shadow);
+        levels = scene_of_levels(extract_levels(document), request.no_shadow);
     const Scene& all = levels ? *levels : scene;
     const std::vector<bool> triangles = sides_to_separate(all, request.options);
     if (triangles.empty())
@@ -108,7 +112,7 @@ void separate_sides_of_meshes(const SidesRequest& request, SharedMeshes& meshes,
     const bool leveled = request.levels && has_levels(document);
     std::optional<Scene> levels;
     if (leveled)
-        levels = scene_of_levels(document, request.no_shadow);
+        levels = scene_of_levels(extract_levels(document), request.no_shadow);
     const Scene& all = levels ? *levels : scene;
     const std::vector<bool> triangles = sides_to_separate(all, request.options);
     if (triangles.empty())
@@ -121,6 +125,28 @@ void separate_sides_of_meshes(const SidesRequest& request, SharedMeshes& meshes,
     meshes = find_shared_meshes(document, scene, request.options,
                                 request.levels ? LevelMode::carry : LevelMode::ignore)
                  .meshes;
+}
+
+bool separate_sides_of_figure(const SidesRequest& request, const AnimatedScene& model, const Scene& scene,
+                              std::span<const ModelPose> poses, GltfDocument& document) {
+    if (request.sides == BackSides::shared)
+        return false;
+    std::vector<bool> triangles(scene.triangles());
+    for (const ModelPose& pose : poses) {
+        Scene posed = scene_of_levels(scene_in_pose(model, pose, {}), request.no_shadow);
+        for (std::size_t array = 0; array < posed.vertex_arrays.size(); ++array)
+            posed.vertex_arrays[array].lobes = !scene.vertex_arrays[array].lobes; // these are not separated
+        const std::vector<bool> lit = sides_to_separate(posed, request.options);
+        for (std::size_t t = 0; t < lit.size(); ++t)
+            triangles[t] = triangles[t] || lit[t];
+    }
+    if (std::ranges::find(triangles, true) == triangles.end())
+        return false;
+    document = with_separate_sides(std::move(document), scene, triangles, ChangedMeshes::with_lobes);
+    const Scene separate = request.levels ? extract_levels(document).scene : extract_scene(document);
+    if (const std::size_t added = separate.receivers() - scene.receivers(); added > 0)
+        note_separated(request, triangles, added);
+    return true;
 }
 
 } // namespace prt::pipeline

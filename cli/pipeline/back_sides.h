@@ -3,10 +3,11 @@
 // Vertices for both sides of double-sided surfaces.
 
 #include "cli/pipeline/model.h"
-#include "prt/bake/bake.h"
+#include "prt/bake/pose_bake.h"
 #include "prt/gltf/gltf.h"
 #include "prt/gltf/transfer_gltf.h"
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -33,5 +34,11 @@ void separate_sides(const SidesRequest& request, GltfDocument& document, Scene& 
 /// separated if light reaches its back in any instance. Replaces `meshes` by those of the new document.
 void separate_sides_of_meshes(const SidesRequest& request, SharedMeshes& meshes, GltfDocument& document,
                               Scene& scene);
+
+/// Like `separate_sides`, for the vertices with VertexArray::lobes of `scene`, which is that of `model` and
+/// belongs to `document`: a triangle is separated if light reaches its back in any pose. Changes neither
+/// other vertices nor their transfer. Returns whether `document` changed.
+bool separate_sides_of_figure(const SidesRequest& request, const AnimatedScene& model, const Scene& scene,
+                              std::span<const ModelPose> poses, GltfDocument& document);
 
 } // namespace prt::pipeline

@@ -129,7 +129,7 @@ void write_vertices(const BakeWork& a, GltfDocument& document, const Scene& scen
         return;
     }
     if (a.finer.refine) // refinement changed the mesh of level 0
-        levels->scene = extract_levels(document);
+        levels->scene = levels_without_lobes(document);
     Scene& all = levels->scene.scene;
     leave_out_shadows(all, a.no_shadow);
     const Stage stage = a.host.stages("levels of detail");

@@ -2,26 +2,19 @@
 
 #include "cli/pipeline/model_levels.h"
 
-#include <string>
-
 namespace prt::pipeline {
-const char* to_string(LevelMode mode) {
-    switch (mode) {
-    case LevelMode::carry:
-        return "carry";
-    case LevelMode::own:
-        return "own";
-    case LevelMode::ignore:
-        break;
-    }
-    return "ignore";
+LeveledScene levels_without_lobes(const GltfDocument& document) {
+    LeveledScene levels = extract_levels(document);
+    keep_levels(levels.nodes, levels.scene,
+                [&](const Primitive& p) { return !levels.scene.vertex_arrays[p.vertices].lobes; });
+    return levels;
 }
 
 std::optional<BakedLevels> find_levels(LevelMode mode, const Path& path, const GltfDocument& document,
                                        int threads, const Notify& notify) {
     if (!has_levels(document))
         return std::nullopt;
-    BakedLevels levels{extract_levels(document), mode, {}};
+    BakedLevels levels{levels_without_lobes(document), mode, {}};
     send(notify, path, levels.scene.notices);
     if (levels.scene.nodes.empty())
         return std::nullopt;
@@ -32,10 +25,7 @@ std::optional<BakedLevels> find_levels(LevelMode mode, const Path& path, const G
 
 void bake_levels(BakedLevels& levels, const Transfer& finest, const BakeOptions& options,
                  const Progress& progress, const FinerModel& finer) {
-    levels.bake = levels.mode == LevelMode::own
-                      ? prt::bake_levels(levels.scene, finest, options, progress, finer)
-                      : carry_levels(levels.scene, finest, {.seed = options.seed, .threads = options.threads},
-                                     progress);
+    levels.bake = transfer_of_levels(levels.scene, finest, levels.mode, options, {}, progress, finer);
 }
 
 } // namespace prt::pipeline

@@ -9,14 +9,6 @@
 
 namespace prt::pipeline {
 
-enum class LevelMode {
-    carry,  ///< they copy the transfer of level 0
-    own,    ///< each level is baked in place of level 0
-    ignore, ///< levels are ignored
-};
-
-const char* to_string(LevelMode mode);
-
 /// Levels of a file, and the result of their bake.
 struct BakedLevels {
     LeveledScene scene;
@@ -24,8 +16,11 @@ struct BakedLevels {
     LevelBake bake;
 };
 
-/// Returns the levels of `document` if the mode uses them; sends notices about invalid ones. Throws `Error`
-/// if transfer cannot be copied to one.
+/// Returns the levels of `document`, without those whose vertices all have lobes: they need no transfer.
+LeveledScene levels_without_lobes(const GltfDocument& document);
+
+/// Returns `levels_without_lobes` if the mode uses them; sends notices about invalid ones. Throws `Error` if
+/// transfer cannot be copied to one.
 std::optional<BakedLevels> find_levels(LevelMode mode, const Path& path, const GltfDocument& document,
                                        int threads, const Notify& notify);
 

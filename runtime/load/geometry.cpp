@@ -415,8 +415,8 @@ Geometry extract_geometry(const GltfData& data, UnitRange& range, Keep keep) {
     return GeometryExtractor(data, keep, range).extract();
 }
 
-Geometry extract_geometry_with_levels(const GltfData& data, UnitRange& range) {
-    return GeometryExtractor(data, Keep::scene, range).extract_with_levels();
+Geometry extract_geometry_with_levels(const GltfData& data, UnitRange& range, Keep keep) {
+    return GeometryExtractor(data, keep, range).extract_with_levels();
 }
 
 } // namespace prt

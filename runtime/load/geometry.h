@@ -31,6 +31,6 @@ struct Geometry {
 /// Throws `Error` as `extract_scene`.
 Geometry extract_geometry(const GltfData& data, UnitRange& range, Keep keep = Keep::scene);
 /// Extracts the scene, followed by the coarser levels of its nodes.
-Geometry extract_geometry_with_levels(const GltfData& data, UnitRange& range);
+Geometry extract_geometry_with_levels(const GltfData& data, UnitRange& range, Keep keep = Keep::scene);
 
 } // namespace prt

@@ -245,6 +245,7 @@ private:
             throw Error("node " + std::to_string(node) + " has two parents or is its own ancestor");
         seen_[at(node)] = true;
         const int parent = parent_[at(node)];
+        result_.outside.push_back({node, parent});
         const glm::dmat4 local = tree_.poses[at(node)].transform();
         result_.world[at(node)] = parent < 0 ? local : result_.world[at(parent)] * local;
     }

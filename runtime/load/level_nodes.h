@@ -29,7 +29,9 @@ struct LevelNodes {
                                        ///< descendants
     std::vector<NodeLevels> levels;
     std::vector<glm::dmat4> world; ///< [nodes of the file]; the identity for nodes without a position
-    std::size_t left_out = 0;      ///< coarser levels that are part of the scene
+    /// Coarser levels outside the scene, with their descendants; parents before children.
+    std::vector<NodeTree::Entry> outside;
+    std::size_t left_out = 0; ///< coarser levels that are part of the scene
     std::vector<std::string> notices;
 };
 

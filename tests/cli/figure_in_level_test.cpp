@@ -3,6 +3,9 @@
 #include "cli/pipeline/model.h"
 #include "pipeline.h"
 #include "prt/core/clustered_transfer.h"
+#include "prt/core/lobes.h"
+#include "prt/core/sh.h"
+#include "prt/gltf/levels.h"
 #include "prt/load/model.h"
 #include "support/glb_file.h"
 
@@ -10,8 +13,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
+#include <initializer_list>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace prt::test {
@@ -88,6 +94,43 @@ GlbFile level() {
     return file;
 }
 
+/// Returns the figure of `level` alone, which lies on its back in the pose of the file, so that its back sees
+/// nothing above the horizon, and stands in the animation.
+GlbFile lying_figure() {
+    GlbFile file = level();
+    const float half = 0.70710678f;
+    file.json["scenes"][0]["nodes"] = {3, 4};
+    file.json["nodes"][4]["rotation"] = {-half, 0, 0, half};
+    auto& animation = file.json["animations"][0];
+    animation["channels"][0]["target"]["node"] = 4;
+    animation["samplers"][0]["output"] =
+        file.accessor(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1}, kFloat, "VEC4", 4);
+    return file;
+}
+
+/// Adds a coarser level of the figure, as a node outside the scene, and one of the floor.
+GlbFile with_levels(GlbFile file) {
+    Json nodes = file.json["nodes"];
+    for (const int of : {3, 0}) {
+        Json& coarse = add_square(file, 0);
+        const std::vector<std::uint16_t> corners{0, 2, 8, 0, 8, 6};
+        coarse["indices"] = file.accessor(corners, kUnsignedShort, "SCALAR", 1);
+        Json& attributes = coarse["attributes"];
+        const std::size_t mesh = nodes[static_cast<std::size_t>(of)]["mesh"];
+        for (const char* name : {"JOINTS_0", "WEIGHTS_0"})
+            if (const Json& fine = file.json["meshes"][mesh]["primitives"][0]["attributes"];
+                fine.contains(name))
+                attributes[name] = fine[name];
+        Json node = nodes[static_cast<std::size_t>(of)];
+        node["mesh"] = file.json["meshes"].size() - 1;
+        nodes[static_cast<std::size_t>(of)]["extensions"]["MSFT_lod"] = {{"ids", {nodes.size()}}};
+        nodes.push_back(std::move(node));
+    }
+    file.json["nodes"] = std::move(nodes);
+    file.json["extensionsUsed"] = {"MSFT_lod"};
+    return file;
+}
+
 /// Settings of a compression that takes little time.
 const std::vector<std::string> kSmall = {"--preset", "custom", "--clusters", "2", "--components", "3"};
 
@@ -103,17 +146,25 @@ protected:
         EXPECT_EQ(outcome.status, 0) << outcome.err;
         return outcome;
     }
+    /// Adds those of `defaults` that `options` do not contain.
+    static void complete(std::vector<std::string>& options,
+                         std::initializer_list<std::pair<const char*, const char*>> defaults) {
+        for (const auto& [name, value] : defaults)
+            if (std::ranges::find(options, name) == options.end())
+                options.insert(options.end(), {name, value});
+    }
     Outcome bake(const char* from, const char* to, std::vector<std::string> options = {}) {
         const bool texels = std::ranges::find(options, "--texels") != options.end();
-        options.insert(options.end(),
-                       {"--order", "3", "--rays", "32", "--bounces", "1", "--back-sides", "shared"});
+        complete(options,
+                 {{"--back-sides", "shared"}, {"--order", "3"}, {"--rays", "32"}, {"--bounces", "1"}});
         if (!texels)
             options.insert(options.end(), {"--fit", "vertex"});
         return make("bake", from, to, options);
     }
-    Outcome lobes(const char* from, const char* to) {
-        return make("lobes", from, to,
-                    {"--order", "3", "--rays", "32", "--poses", "1", "--poses", "frames=0", "--lobes", "1"});
+    Outcome lobes(const char* from, const char* to, std::vector<std::string> options = {}) {
+        complete(options, {{"--back-sides", "shared"}, {"--order", "3"}, {"--rays", "32"}});
+        options.insert(options.end(), {"--poses", "1", "--poses", "frames=0", "--lobes", "1"});
+        return make("lobes", from, to, options);
     }
     SceneFile open(const char* name) const { return pipeline::load_scene_file(folder / name); }
 
@@ -200,6 +251,124 @@ TEST_F(FigureInLevel, KeepsTransferAndLobesInBothOrders) {
         EXPECT_EQ(validator_errors(folder / "one.glb"), 0);
         EXPECT_EQ(validator_errors(folder / "other.glb"), 0);
     }
+}
+
+/// In free space, the transfer of both sides is the clamped cosine of their normals.
+TEST_F(FigureInLevel, BacksHaveTheirOwnLobes) {
+    GlbFile alone = level();
+    alone.json["scenes"][0]["nodes"] = {3, 4};
+    alone.json["animations"][0]["channels"][0]["target"]["node"] = 0; // draws nothing
+    alone.write(folder / "alone.glb");
+    const Outcome outcome = lobes("alone.glb", "both.glb", {"--back-sides", "auto", "--rays", "1024"});
+    EXPECT_NE(outcome.err.find("back sides of 8 double-sided triangles; 9 vertices were added"),
+              std::string::npos)
+        << outcome.err;
+    const SceneFile both = open("both.glb");
+    ASSERT_TRUE(both.lobes);
+    std::size_t backs = 0;
+    for (const VertexArray& vertices : both.scene.vertex_arrays)
+        for (std::size_t v = 0; v < vertices.size(); ++v) {
+            std::array<Lobe, 1> lobe;
+            both.lobes->model.decode(vertices.first_receiver + v, lobe);
+            std::array<float, 9> transfer{};
+            std::array<double, 9> expected;
+            lobe_transfer(lobe, 3, transfer);
+            clamped_cosine_lobe(3, glm::dvec3(vertices.normals[v]), expected);
+            for (std::size_t i = 0; i < 9; ++i) // noise of 1024 rays, and bytes
+                EXPECT_NEAR(transfer[i], expected[i], 0.02) << v << " " << i;
+            backs += vertices.normals[v].z < 0;
+        }
+    EXPECT_EQ(backs, 9u);
+    EXPECT_EQ(both.scene.triangles(), 16u);
+    EXPECT_EQ(validator_errors(folder / "both.glb"), 0);
+}
+
+TEST_F(FigureInLevel, BacksAreLitInAnyPose) {
+    lying_figure().write(folder / "lying.glb");
+    const Outcome baked = bake("lying.glb", "baked.glb", {"--back-sides", "auto"});
+    EXPECT_EQ(baked.err.find("back sides of"), std::string::npos) << baked.err; // dark in this pose
+    const Outcome outcome = lobes("lying.glb", "both.glb", {"--back-sides", "auto"});
+    EXPECT_NE(outcome.err.find("back sides of 8 double-sided triangles; 9 vertices were added"),
+              std::string::npos)
+        << outcome.err;
+}
+
+TEST_F(FigureInLevel, BacksChangeNothingElse) {
+    for (const std::vector<std::string>& options : {std::vector<std::string>{"--instances", "own"},
+                                                    {"--instances", "shared", "--instances", "error=50"},
+                                                    {"--texels", "16"}}) {
+        bake("level.glb", "baked.glb", options);
+        const Outcome outcome = lobes("baked.glb", "both.glb", {"--back-sides", "auto"});
+        EXPECT_NE(outcome.err.find("back sides of 8 double-sided triangles; 9 vertices were added"),
+                  std::string::npos)
+            << outcome.err;
+        const SceneFile baked = open("baked.glb"), both = open("both.glb");
+        EXPECT_EQ(both.instanced.has_value(), options[1] == "shared");
+        ASSERT_TRUE(both.baked && both.lobes);
+        EXPECT_EQ(words_of_figure(both).size(), 18u);
+        const bool texels = options[0] == "--texels";
+        const std::size_t same = texels ? baked.baked->transfer.receivers() : baked.scene.receivers() - 9;
+        for (std::size_t p = 0; p < same; ++p) {
+            EXPECT_TRUE(std::ranges::equal(both.baked->transfer.vector(p), baked.baked->transfer.vector(p)))
+                << p;
+        }
+        EXPECT_EQ(both.scene.receivers(), baked.scene.receivers() + 9);
+        EXPECT_EQ(validator_errors(folder / "both.glb"), 0);
+        lobes("both.glb", "again.glb", {"--back-sides", "auto"}); // both sides have vertices already
+        expect_same_lobes(both, open("again.glb"));
+    }
+}
+
+/// Levels of the figure have lobes, also with separate backs, and those of the floor transfer.
+TEST_F(FigureInLevel, HasLobesInCoarserLevels) {
+    with_levels(level()).write(folder / "level.glb");
+    for (const auto& [mode, sides] :
+         {std::pair("carry", "auto"), std::pair("own", "shared"), std::pair("ignore", "auto")}) {
+        const bool ignored = std::string(mode) == "ignore";
+        const std::size_t vertices = std::string(sides) == "auto" ? 9 + 4 : 9; // 4 are used
+        lobes("level.glb", "figure.glb", {"--levels", mode, "--back-sides", sides});
+        bake("figure.glb", "both.glb");
+        make("compress", "both.glb", "small.glb", kSmall);
+        for (const char* name : {"figure.glb", "both.glb", "small.glb"}) {
+            SCOPED_TRACE(std::string(name) + " " + mode + " " + sides);
+            const GltfDocument document = load_gltf(folder / name);
+            const LeveledScene levels = extract_levels(document);
+            ASSERT_EQ(levels.nodes.size(), 2u);
+            const std::optional<StoredLobes> stored = read_lobes(document, levels.scene);
+            ASSERT_TRUE(stored);
+            std::size_t figure = 0;
+            for (const VertexArray& array : levels.scene.vertex_arrays)
+                for (std::size_t v = array.first_receiver; v < array.first_receiver + array.size(); ++v) {
+                    EXPECT_EQ(stored->model.words[v] != LobeWord{}, array.lobes) << v;
+                    figure += v >= levels.finest_receivers && array.lobes;
+                }
+            EXPECT_EQ(figure, ignored ? 0u : vertices);
+            EXPECT_EQ(levels_have_transfer(document, levels), std::string(name) != "figure.glb");
+            const Model loaded = load_model(folder / name);
+            ASSERT_TRUE(loaded.lobes);
+            EXPECT_EQ(loaded.lobes->model.words,
+                      open(name).lobes->model.words); // level 0 only
+        }
+        EXPECT_EQ(validator_errors(folder / "small.glb"), 0);
+        EXPECT_EQ(prt({"evaluate", at("both.glb"), at("small.glb")}).status, 0);
+        const Outcome info = prt({"info", at("figure.glb")});
+        EXPECT_EQ(info.out.find("without transfer, with lobes") == std::string::npos, ignored) << info.out;
+    }
+}
+
+/// If all vertices of level 0 have lobes, readers reject transfer, also that of levels that do not move.
+TEST_F(FigureInLevel, LeavesNoTransferOfLevelsAlone) {
+    GlbFile alone = with_levels(level());
+    alone.json["scenes"][0]["nodes"] = {3, 4};
+    for (const char* name : {"JOINTS_0", "WEIGHTS_0"})
+        alone.json["meshes"][3]["primitives"][0]["attributes"].erase(name);
+    alone.json["nodes"][6].erase("skin");
+    alone.write(folder / "alone.glb");
+    bake("alone.glb", "baked.glb");
+    make("compress", "baked.glb", "small.glb", kSmall);
+    lobes("small.glb", "lit.glb");
+    EXPECT_TRUE(open("lit.glb").lobes);
+    EXPECT_FALSE(open("lit.glb").record());
 }
 
 TEST_F(FigureInLevel, IsNotRefinedWithItsLevel) {

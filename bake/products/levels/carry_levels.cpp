@@ -61,6 +61,10 @@ private:
             if (equations.unknown_of[p] == kNoReceiver || nearest[p].triangle == kNoTriangle)
                 continue;
             const std::array<std::uint32_t, 3> corners = finest.corners(nearest[p].triangle);
+            if (std::ranges::all_of(corners, [&](std::uint32_t corner) {
+                    return std::ranges::binary_search(options_.sealed, corner);
+                }))
+                bake_.sealed.push_back(surface.part.receivers[p]);
             const std::span<float> to = vector(surface.part.receivers[p]);
             for (std::size_t c = 0; c < stride_; ++c) {
                 double sum = 0;

@@ -34,14 +34,38 @@ bool same_layout(const TransferLayout& a, const TransferLayout& b) {
            });
 }
 
-/// Copies the transfer of level `number`.
-void copy_level(const ScenePart& part, const Transfer& from, std::size_t finest_receivers, Transfer& to) {
+/// Copies the transfer of a level, and its sealed receivers.
+void copy_level(const ScenePart& part, const BakeResult& from, std::size_t finest_receivers, LevelBake& to) {
     for (std::size_t p = 0; p < part.receivers.size(); ++p)
         if (part.receivers[p] >= finest_receivers)
-            std::ranges::copy(from.vector(p), to.vector(part.receivers[p]).begin());
+            std::ranges::copy(from.baked.transfer.vector(p), to.transfer.vector(part.receivers[p]).begin());
+    for (const std::uint32_t p : from.sealed)
+        if (part.receivers[p] >= finest_receivers)
+            to.sealed.push_back(part.receivers[p]);
 }
 
 } // namespace
+
+const char* to_string(LevelMode mode) {
+    switch (mode) {
+    case LevelMode::carry:
+        return "carry";
+    case LevelMode::own:
+        return "own";
+    case LevelMode::ignore:
+        break;
+    }
+    return "ignore";
+}
+
+LevelBake transfer_of_levels(const LeveledScene& scene, const Transfer& finest, LevelMode mode,
+                             const BakeOptions& options, std::span<const std::uint32_t> sealed,
+                             const Progress& progress, const FinerModel& finer) {
+    return mode == LevelMode::own
+               ? bake_levels(scene, finest, options, progress, finer)
+               : carry_levels(scene, finest,
+                              {.seed = options.seed, .threads = options.threads, .sealed = sealed}, progress);
+}
 
 LevelBake bake_levels(const LeveledScene& scene, const Transfer& finest, const BakeOptions& options,
                       const Progress& progress, const FinerModel& finer) {
@@ -60,7 +84,7 @@ LevelBake bake_levels(const LeveledScene& scene, const Transfer& finest, const B
             throw Error("level of detail " + std::to_string(number) +
                         " needs transfer with other terms or colors than level 0 and cannot be baked "
                         "separately; use --levels carry");
-        copy_level(part, bake.baked.transfer, scene.finest_receivers, result.transfer);
+        copy_level(part, bake, scene.finest_receivers, result);
     }
     for (const LeveledNode& node : scene.nodes)
         for (const CoarserLevel& level : node.coarser) {

@@ -2,6 +2,7 @@
 
 #include "prt/bake/pose_bake.h"
 
+#include "bake/scene/scene_part.h"
 #include "prt/bake/bake.h"
 #include "prt/core/error.h"
 #include "runtime/core/support/parallel.h"
@@ -10,6 +11,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <optional>
+#include <utility>
 
 namespace prt {
 namespace {
@@ -19,20 +23,6 @@ namespace {
 constexpr double kSealedWeight = 1e-6;
 
 constexpr std::size_t kGrain = 512; ///< vertices per task
-
-BakeOptions bake_options_of(const PoseBakeOptions& options) {
-    BakeOptions bake;
-    bake.order = options.order;
-    bake.rays = options.rays;
-    bake.target_error = options.target_error;
-    bake.bounces = options.bounces;
-    bake.tracer = options.tracer;
-    bake.lamps.mode = LampMode::none;
-    bake.repairs.bad_textures = options.bad_textures;
-    bake.threads = options.threads;
-    bake.seed = options.seed;
-    return bake;
-}
 
 /// Throws `Error` for vertices that are too far away: animations have finite values, but the resulting
 /// positions can be arbitrary.
@@ -44,6 +34,45 @@ void check_positions(const Scene& scene, const ModelPose& pose) {
                 throw Error("animation '" + pose.animation + "' moves vertices farther than " +
                             std::to_string(static_cast<long>(kFarthestVertex)) + " m from the origin at " +
                             std::to_string(pose.seconds) + " s");
+}
+
+/// Returns level 0 of `scene`.
+Scene finest_of(const LeveledScene& scene) {
+    std::vector<std::size_t> primitives(scene.finest_primitives);
+    std::iota(primitives.begin(), primitives.end(), std::size_t{0});
+    Scene finest = scene_part(scene.scene, primitives).scene;
+    finest.images = scene.scene.images;
+    return finest;
+}
+
+/// Bakes level 0 of `scene`, and its coarser levels, whose results `levels` takes.
+PoseTransfer bake_levels_in(const LeveledScene& scene, const PoseBakeOptions& options,
+                            const Progress& progress, LevelBake& levels) {
+    const BakeOptions how = bake_options_of(options);
+    const double share = 1 / (1 + static_cast<double>(scene.deepest()));
+    std::optional<Scene> finest;
+    if (scene.finest_primitives < scene.scene.primitives.size())
+        finest = finest_of(scene);
+    BakeResult result = bake(finest ? *finest : scene.scene, how, progress.range(0, share));
+    Transfer transfer = std::move(result.baked.transfer);
+    std::vector<std::uint32_t> sealed = std::move(result.sealed);
+    if (!scene.nodes.empty()) {
+        levels = transfer_of_levels(scene, transfer, options.levels, how, sealed, progress.range(share, 1));
+        transfer = std::move(levels.transfer);
+        sealed.insert(sealed.end(), levels.sealed.begin(), levels.sealed.end());
+    }
+    PoseTransfer baked{as_combined(transfer, options.threads),
+                       receiver_areas(scene.scene),
+                       {},
+                       result.statistics.rays,
+                       result.baked.record.rays};
+    baked.transfer.vectors.resize(scene.scene.receivers() * baked.transfer.dimension());
+    baked.sealed.resize(baked.areas.size());
+    for (const std::uint32_t v : sealed) {
+        baked.sealed[v] = true;
+        baked.areas[v] = 0;
+    }
+    return baked;
 }
 
 void add_pose(const PoseTransfer& baked, const VertexFrames& frames, int threads,
@@ -70,6 +99,29 @@ void add_pose(const PoseTransfer& baked, const VertexFrames& frames, int threads
 
 } // namespace
 
+BakeOptions bake_options_of(const PoseBakeOptions& options) {
+    BakeOptions bake;
+    bake.order = options.order;
+    bake.rays = options.rays;
+    bake.target_error = options.target_error;
+    bake.bounces = options.bounces;
+    bake.tracer = options.tracer;
+    bake.lamps.mode = LampMode::none;
+    bake.repairs.bad_textures = options.bad_textures;
+    bake.threads = options.threads;
+    bake.seed = options.seed;
+    return bake;
+}
+
+LeveledScene scene_in_pose(const AnimatedScene& model, const ModelPose& pose,
+                           std::vector<LeveledNode> nodes) {
+    // Relative to the model's origin, floats are precise enough.
+    LeveledScene scene = model.posed_levels(pose.nodes, glm::translate(glm::dmat4(1), -model.scene().origin),
+                                            std::move(nodes));
+    check_positions(scene.scene, pose);
+    return scene;
+}
+
 void grey_vector(const Transfer& transfer, std::size_t receiver, std::span<double> grey) {
     const std::span<const float> vector = transfer.vector(receiver);
     const auto channels = static_cast<std::size_t>(transfer.layout.channels());
@@ -82,21 +134,8 @@ void grey_vector(const Transfer& transfer, std::size_t receiver, std::span<doubl
 
 PoseTransfer bake_pose(const AnimatedScene& model, const ModelPose& pose, const PoseBakeOptions& options,
                        const Progress& progress) {
-    // Relative to the model's origin, floats are precise enough.
-    const Scene scene = model.posed(pose.nodes, glm::translate(glm::dmat4(1), -model.scene().origin));
-    check_positions(scene, pose);
-    const BakeResult result = bake(scene, bake_options_of(options), progress);
-    PoseTransfer baked{as_combined(result.baked.transfer, options.threads),
-                       receiver_areas(scene),
-                       {},
-                       result.statistics.rays,
-                       result.baked.record.rays};
-    baked.sealed.resize(baked.areas.size());
-    for (const std::uint32_t v : result.sealed) {
-        baked.sealed[v] = true;
-        baked.areas[v] = 0;
-    }
-    return baked;
+    LevelBake none;
+    return bake_levels_in(scene_in_pose(model, pose, {}), options, progress, none);
 }
 
 MeanTransfer mean_of_poses(const AnimatedScene& model, std::span<const ModelPose> poses,
@@ -107,21 +146,28 @@ MeanTransfer mean_of_poses(const AnimatedScene& model, std::span<const ModelPose
     mean.areas.resize(vertices);
     mean.vectors.resize(vertices * mean.coefficients());
     std::vector<double> weights(vertices);
-    double rays = 0;
+    const std::vector<LeveledNode> nodes =
+        options.levels == LevelMode::ignore ? std::vector<LeveledNode>{} : moving_levels(model, poses);
+    double rays = 0, level_seconds = 0;
     const auto share = [&](std::size_t p) {
         return static_cast<double>(p) / static_cast<double>(poses.size());
     };
     for (std::size_t p = 0; p < poses.size(); ++p) {
         PoseBakeOptions of_pose = options;
         of_pose.seed = options.seed + p; // noise of several poses averages out
-        const PoseTransfer baked =
-            bake_pose(model, poses[p], of_pose, progress.range(share(p), share(p + 1)));
+        LevelBake levels;
+        const PoseTransfer baked = bake_levels_in(scene_in_pose(model, poses[p], nodes), of_pose,
+                                                  progress.range(share(p), share(p + 1)), levels);
+        level_seconds += levels.seconds;
+        if (p == 0)
+            mean.levels = std::move(levels);
         add_pose(baked, VertexFrames(model, poses[p]), options.threads, weights, mean);
         for (std::size_t v = 0; v < vertices; ++v)
             mean.areas[v] += baked.areas[v] / static_cast<float>(poses.size());
         mean.rays += baked.rays;
         rays += baked.rays_per_vertex;
     }
+    mean.levels.seconds = level_seconds;
     mean.rays_per_vertex = static_cast<int>(std::lround(rays / static_cast<double>(poses.size())));
     const std::vector<float> standing = receiver_areas(model.scene());
     for (std::size_t v = 0; v < vertices; ++v) {

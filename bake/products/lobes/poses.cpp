@@ -70,6 +70,13 @@ std::vector<bool> moving_arrays(const AnimatedScene& model, std::span<const Mode
     return moving;
 }
 
+std::vector<LeveledNode> moving_levels(const AnimatedScene& model, std::span<const ModelPose> poses) {
+    const std::vector<bool> moving = moving_arrays(model, poses);
+    std::vector<LeveledNode> nodes = model.leveled().nodes;
+    keep_levels(nodes, model.scene(), [&](const Primitive& p) { return moving[p.vertices]; });
+    return nodes;
+}
+
 std::vector<ModelPose> frames_of(const AnimatedScene& model, int count, const std::string& only) {
     check_count(count);
     const std::vector<const Animation*> animations = chosen_animations(model, only);

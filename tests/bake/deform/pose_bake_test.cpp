@@ -7,11 +7,13 @@
 #include "prt/core/sh.h"
 #include "prt/fit/lobe_fit.h"
 #include "support/glb_file.h"
+#include "support/scene_builder.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -221,6 +223,111 @@ TEST(PoseBake, MeansUseOnlyPosesThatShowAVertex) {
     EXPECT_EQ(all.hidden, 0u); // no vertex is inside a tube without ends
     for (std::size_t i = 0; i < sum.size(); ++i)
         EXPECT_NEAR(all.vectors[i], sum[i], 1e-12);
+}
+
+/// Returns `file` with a coarser level of its tube, outside the scene: itself, or with every other vertex of
+/// each ring only.
+enum class Coarse { same, half };
+GlbFile with_level(GlbFile file, Coarse coarse) {
+    Json mesh = file.json["meshes"][0];
+    if (coarse == Coarse::half) {
+        std::vector<std::uint16_t> indices;
+        for (int ring = 0; ring + 1 < kRings; ++ring)
+            for (int side = 0; side < kSides; side += 2) {
+                const auto at = [&](int r, int s) {
+                    return static_cast<std::uint16_t>(r * kSides + s % kSides);
+                };
+                for (const std::uint16_t i : {at(ring, side), at(ring, side + 2), at(ring + 1, side + 2),
+                                              at(ring, side), at(ring + 1, side + 2), at(ring + 1, side)})
+                    indices.push_back(i);
+            }
+        mesh["primitives"][0]["indices"] = file.accessor(indices, test::kUnsignedShort, "SCALAR", 1);
+    }
+    file.json["meshes"].push_back(mesh);
+    file.json["nodes"].push_back({{"mesh", 1}, {"skin", 0}});
+    file.json["nodes"][0]["extensions"]["MSFT_lod"]["ids"] = {3};
+    file.json["extensionsUsed"] = {"MSFT_lod"};
+    return file;
+}
+
+MeanTransfer mean_with_levels(const GlbFile& file, LevelMode mode) {
+    const std::string bytes = file.bytes();
+    const AnimatedScene model(parse_gltf(std::as_bytes(std::span(bytes)), "tube.glb"), ReadLevels::all);
+    const PoseBakeOptions options{.order = 3, .rays = 64, .bounces = 1, .levels = mode};
+    return mean_of_poses(model, poses_of(model, 2), options);
+}
+
+/// A level baked in place of level 0 has the transfer of a model whose level 0 it is.
+TEST(PoseBake, LevelsAreBakedInPlaceOfLevel0) {
+    const GlbFile levels = with_level(bending(120), Coarse::half);
+    GlbFile alone = levels;
+    alone.json["nodes"][0].erase("extensions");
+    alone.json["nodes"][0]["mesh"] = 1;
+    const MeanTransfer all = mean_with_levels(levels, LevelMode::own),
+                       coarse = mean_with_levels(alone, LevelMode::ignore);
+    ASSERT_EQ(all.vectors.size(), 2 * coarse.vectors.size());
+    EXPECT_EQ(std::vector(all.vectors.begin() + static_cast<std::ptrdiff_t>(coarse.vectors.size()),
+                          all.vectors.end()),
+              coarse.vectors);
+    ASSERT_EQ(all.levels.levels.size(), 1u);
+    EXPECT_TRUE(coarse.levels.levels.empty());
+}
+
+/// A level that is level 0 copies its transfer, in each pose.
+TEST(PoseBake, LevelsCopyTheTransferOfLevel0) {
+    const MeanTransfer mean = mean_with_levels(with_level(bending(120), Coarse::same), LevelMode::carry);
+    const std::size_t half = mean.vectors.size() / 2;
+    ASSERT_EQ(mean.vertices(), 2u * kRings * kSides);
+    EXPECT_GT(mean.vectors[0], 0.1);
+    for (std::size_t i = 0; i < half; ++i)
+        EXPECT_NEAR(mean.vectors[half + i], mean.vectors[i], 1e-4) << i; // positions are floats
+    EXPECT_LT(mean.levels.levels.at(0).squares.relative_l2(), 1e-4);
+}
+
+/// Returns a box whose corners have separate vertices at each side.
+Scene box(float half) {
+    test::SceneBuilder builder;
+    for (int axis = 0; axis < 3; ++axis)
+        for (const float side : {-half, half}) {
+            std::array<glm::vec3, 4> corners;
+            for (std::size_t i = 0; i < 4; ++i) {
+                corners[i][axis] = side;
+                corners[i][(axis + 1) % 3] = i == 1 || i == 2 ? side : -side;
+                corners[i][(axis + 2) % 3] = i > 1 ? half : -half;
+            }
+            builder.quad(corners[0], corners[1], corners[2], corners[3]);
+        }
+    return builder.build();
+}
+
+/// Poses in which a level is inside geometry do not count, as for level 0: a small box moves into a large
+/// one.
+TEST(PoseBake, LevelsIgnorePosesInsideGeometry) {
+    GlbFile file = test::scene_file(box(1));
+    file.json["nodes"] = {
+        {{"mesh", 0}, {"translation", {0, 9, 0}}, {"scale", {4, 4, 4}}}, {{"mesh", 0}}, {{"mesh", 0}}};
+    file.json["scenes"] = {{{"nodes", {0, 1}}}};
+    file.json["nodes"][1]["extensions"]["MSFT_lod"]["ids"] = {2};
+    file.json["extensionsUsed"] = {"MSFT_lod"};
+    const auto times = file.accessor(std::vector<float>{0}, test::kFloat, "SCALAR", 1);
+    file.json["animations"] =
+        Json::array({{{"samplers",
+                       {{{"input", times},
+                         {"output", file.accessor(std::vector<float>{0, 9, 0}, test::kFloat, "VEC3", 3)}}}},
+                      {"channels", Json::array()}}});
+    for (const int node : {1, 2})
+        file.json["animations"][0]["channels"].push_back(
+            {{"sampler", 0}, {"target", {{"node", node}, {"path", "translation"}}}});
+    for (const LevelMode mode : {LevelMode::carry, LevelMode::own}) {
+        const MeanTransfer mean = mean_with_levels(file, mode);
+        const std::size_t half = mean.vectors.size() / 3;
+        for (std::size_t i = 0; i < half; ++i)
+            EXPECT_NEAR(mean.vectors[2 * half + i], mean.vectors[half + i], 1e-3) << to_string(mode) << i;
+        double sum = 0;
+        for (std::size_t v = half; v < 2 * half; v += mean.coefficients())
+            sum += mean.vectors[v];
+        EXPECT_GT(sum, 0);
+    }
 }
 
 TEST(PoseBake, NoVertexReflectsMoreThanItReceives) {

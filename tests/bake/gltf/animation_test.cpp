@@ -247,6 +247,32 @@ TEST(Skins, RestPoseMatchesTheExtractedScene) {
     }
 }
 
+/// A level outside the scene moves with the parent of its level 0, as one in the scene.
+TEST(AnimatedLevels, MoveWithTheParentOfLevel0) {
+    for (const bool outside : {false, true}) {
+        GlbFile file = test::triangle_file();
+        file.json["nodes"] = {{{"children", {1}}, {"translation", {0, 1, 0}}},
+                              {{"mesh", 0}, {"translation", {1, 0, 0}}},
+                              {{"children", {3}}, {"translation", {2, 0, 0}}},
+                              {{"mesh", 0}, {"scale", {2, 2, 2}}}};
+        file.json["nodes"][1]["extensions"]["MSFT_lod"]["ids"] = {2};
+        file.json["extensionsUsed"] = {"MSFT_lod"};
+        if (!outside)
+            file.json["nodes"][0]["children"].push_back(2);
+        animate(file, {"translation", "LINEAR", {0}, {0, 5, 0}});
+        const std::string bytes = file.bytes();
+        const GltfDocument document = parse_gltf(std::as_bytes(std::span(bytes)), "levels.glb");
+        const AnimatedScene model(document, ReadLevels::all);
+        expect_rest_is_scene(model, extract_levels(document).scene);
+        EXPECT_EQ(model.leveled().nodes.size(), 1u);
+        const Scene posed = model.posed(model.pose(model.animations()[0], 0), glm::dmat4(1));
+        EXPECT_EQ(posed.vertex_arrays.at(0).positions[1], glm::vec3(2, 5, 0)) << outside;
+        EXPECT_EQ(posed.vertex_arrays.at(1).positions[1], glm::vec3(4, 5, 0)) << outside;
+        EXPECT_TRUE(AnimatedScene(document).leveled().nodes.empty());
+        EXPECT_EQ(AnimatedScene(document).scene().receivers(), 3u);
+    }
+}
+
 TEST(Skins, RealCharactersMatchTheRestPoseAndStayFinite) {
     const std::filesystem::path path = test::shared_file("mesh/RobotExpressive.glb");
     if (path.empty())

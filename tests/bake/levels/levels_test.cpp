@@ -15,6 +15,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <numeric>
 #include <random>
 
 namespace prt {
@@ -91,6 +92,24 @@ void expect_carried_exactly(const Scene& scene) {
                 EXPECT_NEAR(bake.transfer.vector(scene.receivers() + p)[c], finest.vector(p)[c], 3e-5f) << p;
             }
         }
+}
+
+/// Vertices of a level are sealed if the nearest surface of level 0 is.
+TEST(Levels, VerticesInsideGeometryAreReported) {
+    const Scene scene = test::join(
+        {SceneBuilder().floor({0, 0, 0}, 1, 2).build(), SceneBuilder().floor({9, 0, 0}, 1, 2).build()});
+    LeveledScene levels = leveled(scene, scene);
+    levels.finest_primitives = 2;
+    levels.nodes[0].finest = {0, 1};
+    levels.nodes[0].coarser[0].primitives = {2, 3};
+    std::vector<std::uint32_t> sealed(scene.vertex_arrays[0].size());
+    std::iota(sealed.begin(), sealed.end(), 0u);
+    const LevelBake bake = carry_levels(levels, zeros(scene), {.sealed = sealed});
+    std::vector<std::uint32_t> expected = sealed;
+    for (std::uint32_t& receiver : expected)
+        receiver += static_cast<std::uint32_t>(scene.receivers());
+    EXPECT_EQ(bake.sealed, expected);
+    EXPECT_TRUE(carry_levels(levels, zeros(scene)).sealed.empty());
 }
 
 TEST(Levels, IdenticalLevelsHaveEqualLight) {

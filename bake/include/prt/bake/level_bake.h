@@ -39,10 +39,21 @@ struct LevelSamples {
     double diagonal = 0;
 };
 
+/// Source of the transfer of coarser levels.
+enum class LevelMode {
+    carry,  ///< they copy the transfer of level 0
+    own,    ///< each level is baked in place of level 0
+    ignore, ///< levels are ignored
+};
+/// Returns "carry", "own" or "ignore".
+const char* to_string(LevelMode mode);
+
 /// Settings for levels.
 struct LevelOptions {
     std::uint64_t seed = 0; ///< seed of the positions of samples
     int threads = 0;        ///< number of threads; 0: all
+    /// Receivers of level 0 inside solid geometry, in ascending order (BakeResult::sealed); may be empty.
+    std::span<const std::uint32_t> sealed = {};
 };
 
 /// Throws `Error` if the root mean square distance of a coarser level from level 0 exceeds a quarter of
@@ -99,6 +110,9 @@ struct LevelBake {
     Transfer transfer;
     /// One result per coarser level, node by node, in the order of LeveledNode::coarser.
     std::vector<LevelOutcome> levels;
+    /// Receivers of coarser levels that are inside solid geometry. `carry_levels`: the nearest triangle of
+    /// level 0 is completely inside, by LevelOptions::sealed.
+    std::vector<std::uint32_t> sealed;
     double seconds = 0;               ///< wall-clock time in seconds
     std::vector<std::string> notices; ///< levels that are far from level 0, one line each; always empty
                                       ///< after `bake_levels`
@@ -118,5 +132,11 @@ LevelBake carry_levels(const LeveledScene& scene, const Transfer& finest, const 
 /// as for `bake`.
 LevelBake bake_levels(const LeveledScene& scene, const Transfer& finest, const BakeOptions& options,
                       const Progress& progress = {}, const FinerModel& finer = {});
+
+/// Returns the result of `bake_levels` or `carry_levels`, as `mode` requests, which must not be `ignore`.
+/// `sealed`: receivers of level 0 inside solid geometry, as in LevelOptions.
+LevelBake transfer_of_levels(const LeveledScene& scene, const Transfer& finest, LevelMode mode,
+                             const BakeOptions& options, std::span<const std::uint32_t> sealed,
+                             const Progress& progress = {}, const FinerModel& finer = {});
 
 } // namespace prt

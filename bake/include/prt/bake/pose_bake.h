@@ -3,7 +3,7 @@
 // Transfer of an animated model: baked in several poses, then transformed to the frames of its vertices, in
 // which lobes are fitted (docs/math.md, section 21). Experimental.
 
-#include "prt/bake/bake_options.h"
+#include "prt/bake/level_bake.h"
 #include "prt/core/progress.h"
 #include "prt/gltf/animation.h"
 
@@ -41,6 +41,9 @@ std::vector<ModelPose> frames_of(const AnimatedScene& model, int count, const st
 /// morph targets, or because their node has different matrices in `poses`.
 std::vector<bool> moving_arrays(const AnimatedScene& model, std::span<const ModelPose> poses);
 
+/// Returns the nodes of AnimatedScene::leveled with the levels that move or can move (`moving_arrays`).
+std::vector<LeveledNode> moving_levels(const AnimatedScene& model, std::span<const ModelPose> poses);
+
 /// Settings of the bake of each pose.
 struct PoseBakeOptions {
     int order = 4;   ///< order of the transfer, 1..kMaxOrder
@@ -53,21 +56,28 @@ struct PoseBakeOptions {
     BadTextures bad_textures = BadTextures::error; ///< treatment of missing and damaged textures
     int threads = 0;                               ///< number of threads; 0: all
     std::uint64_t seed = 0;                        ///< seed of the random directions of rays
+    LevelMode levels = LevelMode::carry;           ///< transfer of moving coarser levels in `mean_of_poses`
 };
+/// Returns the options of the bake of a pose.
+BakeOptions bake_options_of(const PoseBakeOptions& options);
+
+/// Returns the model in `pose` with the levels of `nodes`, which are nodes of AnimatedScene::leveled,
+/// relative to Scene::origin of the model. Throws `Error` if a coordinate of a vertex exceeds
+/// kFarthestVertex.
+LeveledScene scene_in_pose(const AnimatedScene& model, const ModelPose& pose, std::vector<LeveledNode> nodes);
 
 /// Transfer of the model in one pose, without surroundings and without lamps. Vertices are the receivers of
 /// AnimatedScene::scene().
 struct PoseTransfer {
     /// [vertices] transfer with a single `combined` term that has one channel or three, in world space.
     /// Sealed vertices have the transfer of their neighbours, see Inside::refill.
-    Transfer transfer;
+    Transfer transfer;        ///< 0 in coarser levels that are not baked
     std::vector<float> areas; ///< [vertices] area in this pose, m²; 0 for sealed vertices
     std::vector<bool> sealed; ///< [vertices] true: the vertex is inside solid geometry and never visible
     std::size_t rays = 0;     ///< number of all traced rays
     int rays_per_vertex = 0;  ///< BakeRecord::rays
 };
-/// Bakes the transfer of the model in `pose`. Throws `Error` if a coordinate of a vertex, relative to
-/// Scene::origin of the model, exceeds kFarthestVertex in this pose, and the errors of `bake`.
+/// Bakes the transfer of level 0 of the model in `pose`. Throws the errors of `scene_in_pose` and `bake`.
 PoseTransfer bake_pose(const AnimatedScene& model, const ModelPose& pose, const PoseBakeOptions& options,
                        const Progress& progress = {});
 
@@ -112,6 +122,7 @@ struct MeanTransfer {
     int rays_per_vertex = 0; ///< mean of PoseTransfer::rays_per_vertex
     /// Number of vertices that are sealed in all poses; they have the transfer of their neighbours.
     std::size_t hidden = 0;
+    LevelBake levels; ///< moving coarser levels in the first pose, without `transfer`; `seconds`: all poses
 
     /// Returns the number of coefficients of a transfer vector, order².
     std::size_t coefficients() const { return static_cast<std::size_t>(order * order); }
@@ -123,7 +134,8 @@ struct MeanTransfer {
 /// `seed` + i of `options`. Poses in which a vertex is sealed (inside solid geometry) do not count for this
 /// vertex, unless it is sealed in all. A fit to the mean is a fit to all poses that count: in the vertex
 /// frames, the sum of squared differences to their vectors is the squared difference to their mean, times the
-/// number of these poses, plus a constant. Throws the errors of `bake_pose`.
+/// number of these poses, plus a constant. Moving levels of detail get transfer in each pose, as
+/// PoseBakeOptions::levels requests. Throws the errors of `bake_pose` and `transfer_of_levels`.
 MeanTransfer mean_of_poses(const AnimatedScene& model, std::span<const ModelPose> poses,
                            const PoseBakeOptions& options, const Progress& progress = {});
 

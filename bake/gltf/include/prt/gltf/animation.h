@@ -12,6 +12,7 @@
 // Weights of morph targets are not animated; they keep the values in the file.
 
 #include "prt/gltf/gltf.h"
+#include "prt/gltf/levels.h"
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
@@ -61,6 +62,12 @@ glm::dvec4 value_at(const AnimationChannel& channel, double seconds);
 /// Returns whether the file has at least one animation. Does not read or check the animations.
 bool has_animations(const GltfDocument& document);
 
+/// Levels of detail that an `AnimatedScene` contains.
+enum class ReadLevels {
+    finest, ///< level 0, as `extract_scene`
+    all,    ///< also coarser levels, as `extract_levels`
+};
+
 /// A scene with its nodes, skins and animations. Immutable, thread-safe. The world is that of the file, in
 /// metres; its origin is not Scene::origin.
 class AnimatedScene {
@@ -68,11 +75,13 @@ public:
     /// Reads the scene and its animations; keeps no reference to `document`. Throws `Error`, whose message
     /// contains the path of the file, if a skin, a joint weight or an animation is invalid, if a channel
     /// animates a node that has a matrix, or if the keyframes need too much memory for the size of the file.
-    /// Also throws the errors of `extract_scene`.
-    explicit AnimatedScene(const GltfDocument& document);
+    /// Also throws the errors of `extract_scene`, or of `extract_levels`.
+    explicit AnimatedScene(const GltfDocument& document, ReadLevels levels = ReadLevels::finest);
 
-    /// Returns the scene in the pose of the file, equal to the result of `extract_scene`.
-    const Scene& scene() const { return scene_; }
+    /// Returns the scene in the pose of the file, equal to that of `extract_scene` or `extract_levels`.
+    const Scene& scene() const { return leveled_.scene; }
+    /// Returns scene() with the levels of its nodes; without nodes for ReadLevels::finest.
+    const LeveledScene& leveled() const { return leveled_; }
     /// Returns all animations of the file, in file order.
     const std::vector<Animation>& animations() const { return animations_; }
     /// Returns all skins of the file, in file order.
@@ -83,11 +92,11 @@ public:
     std::size_t nodes() const;
 
     /// Returns the matrices from the frame of each node to the world, in the pose of the file: [nodes()].
-    /// Nodes outside the default scene have the identity.
+    /// Nodes outside the default scene have the identity, except coarser levels of detail.
     std::vector<glm::dmat4> rest() const;
     /// Returns the matrices from the frame of each node to the world at time `seconds` of `animation`:
-    /// [nodes()]. Nodes outside the default scene have the identity. `animation`: one of animations().
-    /// `seconds` is clamped to the keys of each channel; for a loop, pass the remainder of the duration.
+    /// [nodes()], as `rest` for nodes outside the default scene. `animation`: one of animations(). `seconds`
+    /// is clamped to the keys of each channel; for a loop, pass the remainder of the duration.
     std::vector<glm::dmat4> pose(const Animation& animation, double seconds) const;
 
     /// Returns the matrices from the mesh to the world that a vertex array uses. Without a skin: one matrix,
@@ -100,9 +109,12 @@ public:
     /// `rest` or `pose`. `placement`: matrix from the world of the file to the positions of the result, whose
     /// Scene::origin is 0. Triangles keep the winding order of scene(), also if `placement` mirrors.
     Scene posed(std::span<const glm::dmat4> nodes, const glm::dmat4& placement) const;
+    /// Returns `posed` with the levels of `of`, which are nodes of `leveled`.
+    LeveledScene posed_levels(std::span<const glm::dmat4> nodes, const glm::dmat4& placement,
+                              std::vector<LeveledNode> of) const;
 
 private:
-    Scene scene_;
+    LeveledScene leveled_;
     std::vector<MovingVertices> vertices_;
     std::vector<Skin> skins_;
     std::vector<Animation> animations_;

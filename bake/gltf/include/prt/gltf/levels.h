@@ -6,6 +6,7 @@
 #include "prt/gltf/gltf.h"
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -55,6 +56,11 @@ bool has_levels(const GltfDocument& document);
 /// Returns the scene of `document` with its coarser levels. Throws the errors of `extract_scene`, also for
 /// vertices and triangles of coarser levels.
 LeveledScene extract_levels(const GltfDocument& document);
+
+/// Removes the levels of `nodes` that have no primitive for which `keep` is true, and nodes without levels.
+/// `nodes` are those of a LeveledScene whose scene is `scene`.
+void keep_levels(std::vector<LeveledNode>& nodes, const Scene& scene,
+                 const std::function<bool(const Primitive&)>& keep);
 
 /// Returns whether the file has raw or compressed transfer of vertices for at least one primitive of a
 /// coarser level. `scene` was extracted from `document` by `extract_levels`.
