@@ -39,6 +39,31 @@ void parse_size(const std::string& text, TexelOptions& texels) {
 
 } // namespace
 
+void add_high_poly(CLI::App* command, HighPolyRequest& a, const std::string& details) {
+    Suboptions(
+        "--high-poly", "FILE",
+        "trace rays against this detailed model instead of the scene\n"
+        "FILE: .gltf or .glb, in the coordinate frame of the scene\n"
+        "a vertex or texel is measured on the outermost detailed surface along its normal, within the\n"
+        "  distance outwards and inwards, that faces the same way; if it is missing, on the scene\n"
+        "  an error if it is missing everywhere" +
+            details,
+        [&a](const std::string& file) {
+            if (file.empty())
+                throw CLI::ValidationError("--high-poly", "the name of the file is empty");
+            a.file = file;
+        })
+        .number("distance", 1e-9, 1e9,
+                "maximum distance from the scene, metres [diagonal of its bounding box / 50]",
+                [&a](double metres) { a.distance = metres; })
+        .add(command);
+}
+
+void check_high_poly(const HighPolyRequest& a) {
+    if (a.file.empty() && a.distance)
+        throw Error("--high-poly needs a file, as --high-poly detailed.glb,distance=0.1");
+}
+
 CLI::Option* add_texels(CLI::App* command, TexelRequest& a, const std::string& text) {
     CLI::Option* texels =
         Suboptions("--texels", "N|N/m", text, [&a](const std::string& value) { parse_size(value, a.texels); })
@@ -61,31 +86,16 @@ CLI::Option* add_texels(CLI::App* command, TexelRequest& a, const std::string& t
                  [&a](const std::string& name) { a.texels.atlases = chosen("--texels", kAtlasModes, name); })
             .detail("  auto: one if the charts of all objects do not overlap or the set is new, else each")
             .add(command);
-    Suboptions(
-        "--high-poly", "FILE",
-        "trace rays against this detailed model instead of the scene\n"
-        "FILE: .gltf or .glb, in the coordinate frame of the scene\n"
-        "a vertex or texel is measured on the outermost detailed surface along its normal, within the\n"
-        "  distance outwards and inwards, that faces the same way; if it is missing, on the scene\n"
-        "  an error if it is missing everywhere\n"
-        "prt bake: bounces, emissive materials and light of probes (--volume) are also those of FILE\n"
+    add_high_poly(
+        command, a.high_poly,
+        "\nprt bake: bounces, emissive materials and light of probes (--volume) are also those of FILE\n"
         "  lights: those of FILE, and those of the scene whose names FILE does not contain\n"
-        "--no-shadow has no effect on this model",
-        [&a](const std::string& file) {
-            if (file.empty())
-                throw CLI::ValidationError("--high-poly", "the name of the file is empty");
-            a.high_poly = file;
-        })
-        .number("distance", 1e-9, 1e9,
-                "maximum distance from the scene, metres [diagonal of its bounding box / 50]",
-                [&a](double metres) { a.distance = metres; })
-        .add(command);
+        "--no-shadow has no effect on this model");
     return texels;
 }
 
 void check_texels(const TexelRequest& a, const CLI::Option* texels) {
-    if (a.high_poly.empty() && a.distance)
-        throw Error("--high-poly needs a file, as --high-poly detailed.glb,distance=0.1");
+    check_high_poly(a.high_poly);
     if (!a.given() && texels->count() > 0)
         throw Error("--texels needs a size, as --texels 1024 or --texels 64/m");
 }

@@ -11,6 +11,12 @@
 
 namespace prt::cli {
 
+/// Adds --high-poly. `details`: more lines of its help, each after a newline.
+void add_high_poly(CLI::App* command, HighPolyRequest& request, const std::string& details);
+
+/// Throws `Error` for a distance without a file.
+void check_high_poly(const HighPolyRequest& request);
+
 /// Adds --texels and --high-poly. Returns --texels. `text` says what is baked.
 CLI::Option* add_texels(CLI::App* command, TexelRequest& request, const std::string& text);
 

@@ -218,7 +218,7 @@ void check_arguments(const AoArguments& a) {
     if (a.attribute == kBentNormal && a.outputs.bent_normals)
         throw Error("--attribute: _BENT_NORMAL is the attribute of --bent-normals; choose another name");
     check_texels(a.textures, a.texels_option);
-    if (a.outputs.occluders && !a.textures.high_poly.empty())
+    if (a.outputs.occluders && !a.textures.high_poly.file.empty())
         throw Error("--occluders does not support --high-poly: bake the volumes of the detailed model");
     if (a.outputs.occluders && !a.options.tracer.falloff.blocks_everywhere())
         throw Error(
@@ -252,7 +252,7 @@ void run(AoArguments a, Session& session) {
     check_arguments(a);
     a.options.rays = a.rays.value_or(a.options.rays);
     a.reading.outputs = check_outputs({{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}},
-                                      {a.scene, a.textures.high_poly});
+                                      {a.scene, a.textures.high_poly.file});
     a.options.repairs.bad_textures = a.reading.bad_textures;
     const Stopwatch watch;
     ModelToPassOn model = load_to_pass_on(a.scene, a.reading);

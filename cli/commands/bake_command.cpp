@@ -255,7 +255,7 @@ void run(BakeArguments a, Session& session) {
     check_device(a.options.tracer);
     check_arguments(a);
     std::vector<Path> inputs = a.instances.lights;
-    inputs.insert(inputs.end(), {a.scene, a.texels.high_poly});
+    inputs.insert(inputs.end(), {a.scene, a.texels.high_poly.file});
     a.reading.outputs =
         check_outputs({{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}}, inputs);
     Report report = bake_model(a, load_gltf(a.scene, a.reading), session.host());

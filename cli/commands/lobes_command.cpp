@@ -6,6 +6,7 @@
 #include "cli/arguments/options.h"
 #include "cli/arguments/scene_arguments.h"
 #include "cli/arguments/suboptions.h"
+#include "cli/arguments/texel_arguments.h"
 #include "cli/arguments/trace_arguments.h"
 #include "cli/pipeline/back_sides.h"
 #include "cli/pipeline/level_report.h"
@@ -34,6 +35,7 @@ struct LobesArguments {
     PoseBakeOptions bake;
     LobeFitOptions fit;
     BackSides back_sides = BackSides::automatic;
+    HighPolyRequest high_poly;
     ReadingOptions reading;
 };
 
@@ -232,6 +234,15 @@ void check_former_figure(const Scene& file, const Scene& scene) {
                     " not move in these poses; bake transfer first with prt bake --stored-lobes remove");
 }
 
+/// Reads the model of --high-poly; empty without one.
+std::optional<AnimatedScene> load_high_poly(const LobesArguments& a) {
+    if (a.high_poly.file.empty())
+        return std::nullopt;
+    std::optional<AnimatedScene> model(load_gltf(a.high_poly.file, a.reading));
+    print_notices(a.high_poly.file.string(), model->scene().notices);
+    return model;
+}
+
 /// Gives the sides of double-sided surfaces of the figure separate vertices. Returns whether `document`
 /// changed.
 bool separate_backs(const LobesArguments& a, const Figure& figure, GltfDocument& document) {
@@ -254,13 +265,17 @@ void add_levels_of(const LobesArguments& a, const Figure& figure, const Made& ma
 void run(LobesArguments a, Session& session) {
     check_device(a.bake.tracer);
     check_method(a.bake.tracer);
-    a.reading.outputs =
-        check_outputs({{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}}, {a.model});
+    a.reading.outputs = check_outputs({{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}},
+                                      {a.model, a.high_poly.file});
+    check_high_poly(a.high_poly);
     a.bake.bad_textures = a.reading.bad_textures;
     a.fit.threads = a.bake.threads;
     set_band_costs(a.bake.order, a.fit);
     ModelToPassOn input = load_to_pass_on(a.model, a.reading);
     GltfDocument& document = input.document;
+    const std::optional<AnimatedScene> high_poly = load_high_poly(a);
+    a.bake.high_poly = high_poly ? &*high_poly : nullptr;
+    a.bake.reach = a.high_poly.distance_in(input.scene);
     input.scene = {}; // frees memory: the figure has it
     Report report;
     about(a.model, [&] {
@@ -276,6 +291,8 @@ void run(LobesArguments a, Session& session) {
         const Made made = make_lobes(a, figure, session);
         report = report_of(a, made, figure.poses.size());
         add_levels_of(a, figure, made, report);
+        if (high_poly) // its surface can be missing near vertices
+            print_notices(a.high_poly.file.string(), made.mean.notices);
         note_the_rest(a, figure.scene, made, input.has_transfer);
         measure_frames(a, figure, made, session, report);
         if (finest_receivers_of(figure).size() == figure.model.leveled().finest_receivers)
@@ -354,6 +371,10 @@ void add_lobes(CLI::App& app, Session& session) {
     add_quality(command, a);
     add_back_sides(command, a.back_sides,
                    "\nfor vertices that move; light of the sky in any of the poses, not of lamps");
+    add_high_poly(
+        command, a.high_poly,
+        "\nFILE has the skeleton of the model: its nodes move as those of the model with the same names\n"
+        "bounces are those of FILE; an error if a joint of FILE has no such name");
     add_levels(command, a.bake.levels,
                "\nlevels that move get lobes, in each pose as requested; others keep their transfer");
     add_device(command, a.bake.tracer);

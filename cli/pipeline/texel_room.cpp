@@ -44,16 +44,20 @@ void add_lights(const Scene& scene, Scene& finer) {
 
 } // namespace
 
+double HighPolyRequest::distance_in(const Scene& scene) const {
+    const Bounds box = bounds(scene);
+    return distance.value_or(static_cast<double>(glm::distance(box.low, box.high)) / 50);
+}
+
 HighPoly load_high_poly(const TexelRequest& a, const GltfOptions& reading, const Scene& scene,
                         const Notify& notify) {
     HighPoly finer;
-    if (a.high_poly.empty())
+    if (a.high_poly.file.empty())
         return finer;
-    finer.scene = extract_scene(load_gltf(a.high_poly, reading));
-    send(notify, a.high_poly, finer.scene->notices);
+    finer.scene = extract_scene(load_gltf(a.high_poly.file, reading));
+    send(notify, a.high_poly.file, finer.scene->notices);
     add_lights(scene, *finer.scene);
-    const Bounds box = bounds(scene);
-    finer.distance = a.distance.value_or(static_cast<double>(glm::distance(box.low, box.high)) / 50);
+    finer.distance = a.high_poly.distance_in(scene);
     return finer;
 }
 

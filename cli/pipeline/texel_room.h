@@ -13,17 +13,25 @@
 namespace prt::pipeline {
 
 /// Textures to bake into, and the model whose surface is measured.
+/// A high-poly model.
+struct HighPolyRequest {
+    Path file;                      ///< model whose surface blocks light and is lit, in place of the scene
+    std::optional<double> distance; ///< maximum distance of that surface, metres
+
+    /// Returns `distance`, by default a fiftieth of the extent of `scene`.
+    double distance_in(const Scene& scene) const;
+};
+
 struct TexelRequest {
     TexelOptions texels;
-    bool unwrap = false;            ///< write new texture coordinates if the existing ones do not fit
-    Path high_poly;                 ///< model whose surface blocks light and is lit, in place of the scene
-    std::optional<double> distance; ///< maximum distance of that surface, metres
+    bool unwrap = false; ///< write new texture coordinates if the existing ones do not fit
+    HighPolyRequest high_poly;
 
     /// True if textures are requested.
     bool given() const { return texels.size > 0 || texels.per_metre > 0; }
 };
 
-/// The high-poly model, and its maximum distance: by default a fiftieth of the scene's extent.
+/// The high-poly model, and its maximum distance.
 struct HighPoly {
     std::optional<Scene> scene;
     double distance = 0;

@@ -14,8 +14,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <initializer_list>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -327,7 +329,8 @@ TEST_F(FigureInLevel, HasLobesInCoarserLevels) {
         const bool ignored = std::string(mode) == "ignore";
         const std::size_t vertices = std::string(sides) == "auto" ? 9 + 4 : 9; // 4 are used
         lobes("level.glb", "figure.glb", {"--levels", mode, "--back-sides", sides});
-        bake("figure.glb", "both.glb");
+        bake("figure.glb", "both.glb", {"--json", at("bake.json")});
+        EXPECT_EQ(read_json(folder / "bake.json")["levels"]["nodes"], ignored ? 2 : 1);
         make("compress", "both.glb", "small.glb", kSmall);
         for (const char* name : {"figure.glb", "both.glb", "small.glb"}) {
             SCOPED_TRACE(std::string(name) + " " + mode + " " + sides);
@@ -354,6 +357,47 @@ TEST_F(FigureInLevel, HasLobesInCoarserLevels) {
         const Outcome info = prt({"info", at("figure.glb")});
         EXPECT_EQ(info.out.find("without transfer, with lobes") == std::string::npos, ignored) << info.out;
     }
+}
+
+/// The floor of the high-poly model blocks the light of a figure without a floor, as in its own file.
+TEST_F(FigureInLevel, IsMeasuredOnAHighPolyModel) {
+    GlbFile alone = level();
+    alone.json["scenes"][0]["nodes"] = {3, 4};
+    alone.write(folder / "alone.glb");
+    const Outcome refused =
+        prt({"lobes", at("alone.glb"), "-o", at("x.glb"), "--high-poly", at("level.glb")});
+    EXPECT_EQ(refused.status, 1);
+    EXPECT_NE(refused.err.find("has no node with the name of joint node 4 ''"), std::string::npos)
+        << refused.err;
+    EXPECT_EQ(prt({"lobes", at("alone.glb"), "-o", at("x.glb"), "--high-poly", "distance=1"}).status, 1);
+    alone.json["nodes"][4]["name"] = "lower";
+    alone.write(folder / "alone.glb");
+    GlbFile detailed = level();
+    detailed.json["nodes"][4]["name"] = "lower";
+    detailed.write(folder / "level.glb");
+    lobes("alone.glb", "measured.glb", {"--high-poly", at("level.glb"), "--rays", "256"});
+    lobes("alone.glb", "free.glb", {"--rays", "256"});
+    lobes("level.glb", "figure.glb", {"--rays", "256"});
+    const auto transfer = [&](const char* name) { // of the figure, which comes last
+        const SceneFile file = open(name);
+        const LobeModel& model = file.lobes->model;
+        std::vector<float> result(9 * std::size_t{9});
+        for (std::size_t v = 0; v < 9; ++v) {
+            std::array<Lobe, 1> lobe;
+            model.decode(model.vertices() - 9 + v, lobe);
+            lobe_transfer(lobe, 3, std::span(result).subspan(9 * v, 9));
+        }
+        return result;
+    };
+    const std::vector<float> expected = transfer("figure.glb");
+    const auto largest = [&](const std::vector<float>& other) {
+        float difference = 0;
+        for (std::size_t i = 0; i < other.size(); ++i)
+            difference = std::max(difference, std::abs(other[i] - expected[i]));
+        return difference;
+    };
+    EXPECT_LT(largest(transfer("measured.glb")), 0.05f); // rays at edges, and bytes
+    EXPECT_GT(largest(transfer("free.glb")), 0.15f);
 }
 
 /// If all vertices of level 0 have lobes, readers reject transfer, also that of levels that do not move.

@@ -45,19 +45,38 @@ Scene finest_of(const LeveledScene& scene) {
     return finest;
 }
 
-/// Bakes level 0 of `scene`, and its coarser levels, whose results `levels` takes.
-PoseTransfer bake_levels_in(const LeveledScene& scene, const PoseBakeOptions& options,
+/// Returns the high-poly model in the pose of `model`, in the frame of `scene_in_pose`; empty if there is
+/// none.
+std::optional<Scene> high_poly_in_pose(const AnimatedScene& model, const ModelPose& pose,
+                                       const PoseBakeOptions& options) {
+    if (!options.high_poly)
+        return std::nullopt;
+    const ModelPose following{pose.animation, pose.seconds, options.high_poly->followed(model, pose.nodes)};
+    std::optional<Scene> scene =
+        options.high_poly->posed(following.nodes, glm::translate(glm::dmat4(1), -model.scene().origin));
+    check_positions(*scene, following);
+    return scene;
+}
+
+/// Bakes level 0 in a pose, and the coarser levels of `nodes`, whose results `levels` takes.
+PoseTransfer bake_levels_in(const AnimatedScene& model, const ModelPose& pose,
+                            const std::vector<LeveledNode>& nodes, const PoseBakeOptions& options,
                             const Progress& progress, LevelBake& levels) {
+    const LeveledScene scene = scene_in_pose(model, pose, nodes);
+    const std::optional<Scene> detailed = high_poly_in_pose(model, pose, options);
+    const FinerModel finer{detailed ? &*detailed : nullptr, options.reach};
     const BakeOptions how = bake_options_of(options);
     const double share = 1 / (1 + static_cast<double>(scene.deepest()));
     std::optional<Scene> finest;
     if (scene.finest_primitives < scene.scene.primitives.size())
         finest = finest_of(scene);
-    BakeResult result = bake(finest ? *finest : scene.scene, how, progress.range(0, share));
+    BakeResult result =
+        bake(finest ? *finest : scene.scene, how, progress.range(0, share), MeasureErrors::no, finer);
     Transfer transfer = std::move(result.baked.transfer);
     std::vector<std::uint32_t> sealed = std::move(result.sealed);
     if (!scene.nodes.empty()) {
-        levels = transfer_of_levels(scene, transfer, options.levels, how, sealed, progress.range(share, 1));
+        levels =
+            transfer_of_levels(scene, transfer, options.levels, how, sealed, progress.range(share, 1), finer);
         transfer = std::move(levels.transfer);
         sealed.insert(sealed.end(), levels.sealed.begin(), levels.sealed.end());
     }
@@ -65,7 +84,8 @@ PoseTransfer bake_levels_in(const LeveledScene& scene, const PoseBakeOptions& op
                        receiver_areas(scene.scene),
                        {},
                        result.statistics.rays,
-                       result.baked.record.rays};
+                       result.baked.record.rays,
+                       std::move(result.statistics.notices)};
     baked.transfer.vectors.resize(scene.scene.receivers() * baked.transfer.dimension());
     baked.sealed.resize(baked.areas.size());
     for (const std::uint32_t v : sealed) {
@@ -135,7 +155,7 @@ void grey_vector(const Transfer& transfer, std::size_t receiver, std::span<doubl
 PoseTransfer bake_pose(const AnimatedScene& model, const ModelPose& pose, const PoseBakeOptions& options,
                        const Progress& progress) {
     LevelBake none;
-    return bake_levels_in(scene_in_pose(model, pose, {}), options, progress, none);
+    return bake_levels_in(model, pose, {}, options, progress, none);
 }
 
 MeanTransfer mean_of_poses(const AnimatedScene& model, std::span<const ModelPose> poses,
@@ -156,11 +176,13 @@ MeanTransfer mean_of_poses(const AnimatedScene& model, std::span<const ModelPose
         PoseBakeOptions of_pose = options;
         of_pose.seed = options.seed + p; // noise of several poses averages out
         LevelBake levels;
-        const PoseTransfer baked = bake_levels_in(scene_in_pose(model, poses[p], nodes), of_pose,
-                                                  progress.range(share(p), share(p + 1)), levels);
+        PoseTransfer baked =
+            bake_levels_in(model, poses[p], nodes, of_pose, progress.range(share(p), share(p + 1)), levels);
         level_seconds += levels.seconds;
-        if (p == 0)
+        if (p == 0) {
             mean.levels = std::move(levels);
+            mean.notices = std::move(baked.notices);
+        }
         add_pose(baked, VertexFrames(model, poses[p]), options.threads, weights, mean);
         for (std::size_t v = 0; v < vertices; ++v)
             mean.areas[v] += baked.areas[v] / static_cast<float>(poses.size());

@@ -330,6 +330,63 @@ TEST(PoseBake, LevelsIgnorePosesInsideGeometry) {
     }
 }
 
+/// The high-poly model is the tube with a card beside its upper half, which moves with it: the tube has the
+/// transfer that it has in that model.
+TEST(PoseBake, HighPolyModelsMoveWithTheModel) {
+    GlbFile plain = bending(90);
+    plain.json["nodes"][1]["name"] = "lower";
+    plain.json["nodes"][2]["name"] = "upper";
+    GlbFile detailed = plain;
+    Json card = detailed.json["meshes"][0]["primitives"][0];
+    const std::vector<float> corners{0.2f, 1.2f, -1, 0.2f, 1.2f, 1, 0.2f, 2, 1, 0.2f, 2, -1};
+    std::vector<float> normals, weights;
+    std::vector<std::uint8_t> joints;
+    for (int i = 0; i < 4; ++i) {
+        normals.insert(normals.end(), {-1, 0, 0});
+        joints.insert(joints.end(), {1, 0, 0, 0});
+        weights.insert(weights.end(), {1, 0, 0, 0});
+    }
+    card["attributes"] = {{"POSITION", detailed.accessor(corners, test::kFloat, "VEC3", 3)},
+                          {"NORMAL", detailed.accessor(normals, test::kFloat, "VEC3", 3)},
+                          {"JOINTS_0", detailed.accessor(joints, test::kUnsignedByte, "VEC4", 4)},
+                          {"WEIGHTS_0", detailed.accessor(weights, test::kFloat, "VEC4", 4)}};
+    card["indices"] =
+        detailed.accessor(std::vector<std::uint16_t>{0, 1, 2, 0, 2, 3}, test::kUnsignedShort, "SCALAR", 1);
+    detailed.json["meshes"][0]["primitives"].push_back(card);
+    const AnimatedScene truth_model = animated(detailed);
+    const PoseBakeOptions options{.order = 3, .rays = 256, .bounces = 0};
+    const MeanTransfer truth = mean_of_poses(truth_model, poses_of(truth_model, 2), options);
+
+    // The same nodes in another order, without the animation.
+    detailed.json["nodes"] = {{{"name", "upper"}, {"translation", {0, 1, 0}}},
+                              {{"mesh", 0}, {"skin", 0}},
+                              {{"name", "lower"}, {"children", {0}}}};
+    detailed.json["skins"][0]["joints"] = {2, 0};
+    detailed.json["scenes"] = {{{"nodes", {1, 2}}}};
+    detailed.json.erase("animations");
+    const AnimatedScene model = animated(plain), high_poly = animated(detailed);
+    PoseBakeOptions with = options;
+    with.high_poly = &high_poly;
+    with.reach = 0.05;
+    const MeanTransfer mean = mean_of_poses(model, poses_of(model, 2), with),
+                       without = mean_of_poses(model, poses_of(model, 2), options);
+    const auto difference = [&](const MeanTransfer& other) {
+        double wrong = 0, all = 0;
+        for (std::size_t i = 0; i < other.vectors.size(); ++i) {
+            wrong += (other.vectors[i] - truth.vectors[i]) * (other.vectors[i] - truth.vectors[i]);
+            all += truth.vectors[i] * truth.vectors[i];
+        }
+        return std::sqrt(wrong / all);
+    };
+    EXPECT_LT(difference(mean), 0.03); // rays that graze neighbouring triangles
+    EXPECT_GT(difference(without), 0.2);
+    detailed.json["nodes"][2]["name"] = "other";
+    detailed.json["nodes"][0].erase("name");
+    const AnimatedScene stranger = animated(detailed);
+    with.high_poly = &stranger;
+    EXPECT_THROW(mean_of_poses(model, poses_of(model, 2), with), Error);
+}
+
 TEST(PoseBake, NoVertexReflectsMoreThanItReceives) {
     const AnimatedScene model = animated(bending(150)); // white, and folded on itself
     const MeanTransfer mean =

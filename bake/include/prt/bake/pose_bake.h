@@ -57,6 +57,10 @@ struct PoseBakeOptions {
     int threads = 0;                               ///< number of threads; 0: all
     std::uint64_t seed = 0;                        ///< seed of the random directions of rays
     LevelMode levels = LevelMode::carry;           ///< transfer of moving coarser levels in `mean_of_poses`
+    /// Model with the same skeleton that acts as FinerModel in each pose, and its reach; may be null. It
+    /// follows the model by the names of nodes (AnimatedScene::followed).
+    const AnimatedScene* high_poly = nullptr;
+    double reach = 0;
 };
 /// Returns the options of the bake of a pose.
 BakeOptions bake_options_of(const PoseBakeOptions& options);
@@ -76,8 +80,10 @@ struct PoseTransfer {
     std::vector<bool> sealed; ///< [vertices] true: the vertex is inside solid geometry and never visible
     std::size_t rays = 0;     ///< number of all traced rays
     int rays_per_vertex = 0;  ///< BakeRecord::rays
+    std::vector<std::string> notices; ///< BakeStatistics::notices
 };
-/// Bakes the transfer of level 0 of the model in `pose`. Throws the errors of `scene_in_pose` and `bake`.
+/// Bakes the transfer of level 0 of the model in `pose`. Throws the errors of `scene_in_pose`,
+/// `bake` and AnimatedScene::followed.
 PoseTransfer bake_pose(const AnimatedScene& model, const ModelPose& pose, const PoseBakeOptions& options,
                        const Progress& progress = {});
 
@@ -122,6 +128,7 @@ struct MeanTransfer {
     int rays_per_vertex = 0; ///< mean of PoseTransfer::rays_per_vertex
     /// Number of vertices that are sealed in all poses; they have the transfer of their neighbours.
     std::size_t hidden = 0;
+    std::vector<std::string> notices; ///< notices of the first pose
     LevelBake levels; ///< moving coarser levels in the first pose, without `transfer`; `seconds`: all poses
 
     /// Returns the number of coefficients of a transfer vector, order².

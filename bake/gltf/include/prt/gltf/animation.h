@@ -99,6 +99,12 @@ public:
     /// is clamped to the keys of each channel; for a loop, pass the remainder of the duration.
     std::vector<glm::dmat4> pose(const Animation& animation, double seconds) const;
 
+    /// Returns the matrices from the frame of each node to the world, [nodes()], if this model follows
+    /// `leader` in its pose `nodes`: a node with the name of a node of `leader` moves from its position in
+    /// the file as that node does, and others move with their parents. Throws `Error` if a name of `leader`
+    /// is ambiguous, or if a joint of a skin has no such name, and none of its ancestors has.
+    std::vector<glm::dmat4> followed(const AnimatedScene& leader, std::span<const glm::dmat4> nodes) const;
+
     /// Returns the matrices from the mesh to the world that a vertex array uses. Without a skin: one matrix,
     /// the world matrix of the node. With a skin: [joints + 1], for each joint its world matrix times its
     /// inverse bind matrix, then the identity for vertices without a joint. `vertex_array`: index into
@@ -118,6 +124,7 @@ private:
     std::vector<MovingVertices> vertices_;
     std::vector<Skin> skins_;
     std::vector<Animation> animations_;
+    std::vector<std::string> names_; ///< [nodes()]
     std::shared_ptr<const NodeTree> tree_;
 };
 
