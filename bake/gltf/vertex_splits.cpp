@@ -2,13 +2,12 @@
 
 #include "bake/gltf/vertex_splits.h"
 
+#include "bake/gltf/edit_meshes.h"
 #include "bake/gltf/gathered_accessor.h"
-#include "bake/gltf/make_meshes_unique.h"
-#include "bake/gltf/reparse.h"
-#include "bake/gltf/write_set.h"
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 namespace prt {
 namespace {
@@ -63,9 +62,7 @@ int free_texcoord(const Scene& scene) {
 
 GltfDocument with_texcoords(GltfDocument document, const Scene& scene, std::span<const VertexSplit> splits,
                             int set) {
-    named(document, [&](GltfContents& contents) { meshes_without_transfer(contents, scene); });
-    document = reparse(document);
-    named(document, [&](GltfContents& contents) {
+    return edit_meshes(std::move(document), scene, [&](GltfContents& contents) {
         SplitWriter writer(contents);
         for (std::size_t p = 0; p < scene.primitives.size(); ++p) {
             if (splits[p].source.empty())
@@ -78,7 +75,6 @@ GltfDocument with_texcoords(GltfDocument document, const Scene& scene, std::span
         }
         writer.finish();
     });
-    return reparse(document);
 }
 
 } // namespace prt

@@ -9,6 +9,9 @@
 
 namespace prt {
 
+/// Returns the scene in which all nodes that have level `number` show it; 0: level 0.
+ScenePart with_level(const LeveledScene& scene, std::size_t number);
+
 /// Some primitives as a surface. It cannot be moved, because other objects keep references to it.
 struct PartSurface {
     PartSurface(const Scene& scene, std::span<const std::size_t> primitives, int threads);

@@ -10,24 +10,6 @@
 namespace prt {
 namespace {
 
-/// Returns the scene in which all nodes that have level `number` show it.
-ScenePart with_level(const LeveledScene& scene, std::size_t number) {
-    std::set<std::size_t> shown;
-    for (std::size_t p = 0; p < scene.finest_primitives; ++p)
-        shown.insert(p);
-    for (const LeveledNode& node : scene.nodes)
-        for (const CoarserLevel& level : node.coarser)
-            if (static_cast<std::size_t>(level.level) == number) {
-                for (const std::size_t p : node.finest)
-                    shown.erase(p);
-                shown.insert(level.primitives.begin(), level.primitives.end());
-            }
-    const std::vector<std::size_t> primitives(shown.begin(), shown.end());
-    ScenePart part = scene_part(scene.scene, primitives);
-    part.scene.images = scene.scene.images;
-    return part;
-}
-
 bool same_layout(const TransferLayout& a, const TransferLayout& b) {
     return a.order == b.order && std::ranges::equal(a.terms, b.terms, [](const auto& p, const auto& q) {
                return p.kind == q.kind && p.channels == q.channels && p.name == q.name;
@@ -47,15 +29,24 @@ void copy_level(const ScenePart& part, const BakeResult& from, std::size_t fines
 } // namespace
 
 const char* to_string(LevelMode mode) {
-    switch (mode) {
-    case LevelMode::carry:
-        return "carry";
-    case LevelMode::own:
-        return "own";
-    case LevelMode::ignore:
-        break;
-    }
-    return "ignore";
+    return mode == LevelMode::carry ? "carry" : mode == LevelMode::own ? "own" : "ignore";
+}
+
+ScenePart with_level(const LeveledScene& scene, std::size_t number) {
+    std::set<std::size_t> shown;
+    for (std::size_t p = 0; p < scene.finest_primitives; ++p)
+        shown.insert(p);
+    for (const LeveledNode& node : scene.nodes)
+        for (const CoarserLevel& level : node.coarser)
+            if (static_cast<std::size_t>(level.level) == number) {
+                for (const std::size_t p : node.finest)
+                    shown.erase(p);
+                shown.insert(level.primitives.begin(), level.primitives.end());
+            }
+    const std::vector<std::size_t> primitives(shown.begin(), shown.end());
+    ScenePart part = scene_part(scene.scene, primitives);
+    part.scene.images = scene.scene.images;
+    return part;
 }
 
 LevelBake transfer_of_levels(const LeveledScene& scene, const Transfer& finest, LevelMode mode,

@@ -2,7 +2,7 @@
 
 #include "prt/bake/pose_bake.h"
 
-#include "bake/scene/scene_part.h"
+#include "bake/products/levels/level_surface.h"
 #include "prt/bake/bake.h"
 #include "prt/core/error.h"
 #include "runtime/core/support/parallel.h"
@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -34,15 +33,6 @@ void check_positions(const Scene& scene, const ModelPose& pose) {
                 throw Error("animation '" + pose.animation + "' moves vertices farther than " +
                             std::to_string(static_cast<long>(kFarthestVertex)) + " m from the origin at " +
                             std::to_string(pose.seconds) + " s");
-}
-
-/// Returns level 0 of `scene`.
-Scene finest_of(const LeveledScene& scene) {
-    std::vector<std::size_t> primitives(scene.finest_primitives);
-    std::iota(primitives.begin(), primitives.end(), std::size_t{0});
-    Scene finest = scene_part(scene.scene, primitives).scene;
-    finest.images = scene.scene.images;
-    return finest;
 }
 
 /// Returns the high-poly model in the pose of `model`, in the frame of `scene_in_pose`; empty if there is
@@ -69,7 +59,7 @@ PoseTransfer bake_levels_in(const AnimatedScene& model, const ModelPose& pose,
     const double share = 1 / (1 + static_cast<double>(scene.deepest()));
     std::optional<Scene> finest;
     if (scene.finest_primitives < scene.scene.primitives.size())
-        finest = finest_of(scene);
+        finest = with_level(scene, 0).scene;
     BakeResult result =
         bake(finest ? *finest : scene.scene, how, progress.range(0, share), MeasureErrors::no, finer);
     Transfer transfer = std::move(result.baked.transfer);
