@@ -123,8 +123,8 @@ void take_texels(py::dict& options, pipeline::TexelRequest& request) {
     choose(texels, "atlas", request.texels.atlases,
            {{"auto", AtlasMode::automatic}, {"one", AtlasMode::one}, {"each", AtlasMode::each}});
     check_empty(texels);
-    take(options, "high_poly", request.high_poly);
-    take(options, "high_poly_distance", request.distance);
+    take(options, "high_poly", request.high_poly.file);
+    take(options, "high_poly_distance", request.high_poly.distance);
 }
 
 void take_volume(py::dict& options, pipeline::VolumeRequest& request) {
