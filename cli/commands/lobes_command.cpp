@@ -262,6 +262,36 @@ void add_levels_of(const LobesArguments& a, const Figure& figure, const Made& ma
             {{.nodes = moving_levels(figure.model, figure.poses)}, a.bake.levels, made.mean.levels}, report);
 }
 
+/// Bakes and fits lobes, and writes them into the document of `input`.
+Report bake_lobes(const LobesArguments& a, ModelToPassOn& input, Session& session) {
+    GltfDocument& document = input.document;
+    Figure figure = figure_in(document, a);
+    print_notices(a.model.string(), figure.model.leveled().notices);
+    if (!moves(figure.model, figure.scene, figure.poses))
+        print_notices(a.model.string(),
+                      {"no vertex moves in these poses; use prt bake for a model that does not move"});
+    if (input.has_transfer)
+        check_former_figure(figure.model.scene(), figure.scene);
+    if (separate_backs(a, figure, document))
+        figure = figure_in(document, a);
+    const Made made = make_lobes(a, figure, session);
+    Report report = report_of(a, made, figure.poses.size());
+    add_levels_of(a, figure, made, report);
+    if (a.bake.high_poly) // its surface can be missing near vertices
+        print_notices(a.high_poly.file.string(), made.mean.notices);
+    note_the_rest(a, figure.scene, made, input.has_transfer);
+    measure_frames(a, figure, made, session, report);
+    if (finest_receivers_of(figure).size() == figure.model.leveled().finest_receivers)
+        discard_transfer(document); // levels that do not move may have some, but readers need level 0
+    write_lobes(document, figure.scene,
+                {made.lobes,
+                 {.poses = static_cast<int>(figure.poses.size()),
+                  .rays = made.mean.rays_per_vertex,
+                  .bounces = a.bake.bounces,
+                  .seed = a.bake.seed}});
+    return report;
+}
+
 void run(LobesArguments a, Session& session) {
     check_device(a.bake.tracer);
     check_method(a.bake.tracer);
@@ -272,39 +302,12 @@ void run(LobesArguments a, Session& session) {
     a.fit.threads = a.bake.threads;
     set_band_costs(a.bake.order, a.fit);
     ModelToPassOn input = load_to_pass_on(a.model, a.reading);
-    GltfDocument& document = input.document;
     const std::optional<AnimatedScene> high_poly = load_high_poly(a);
     a.bake.high_poly = high_poly ? &*high_poly : nullptr;
     a.bake.reach = a.high_poly.distance_in(input.scene);
     input.scene = {}; // frees memory: the figure has it
-    Report report;
-    about(a.model, [&] {
-        Figure figure = figure_in(document, a);
-        print_notices(a.model.string(), figure.model.leveled().notices);
-        if (!moves(figure.model, figure.scene, figure.poses))
-            print_notices(a.model.string(),
-                          {"no vertex moves in these poses; use prt bake for a model that does not move"});
-        if (input.has_transfer)
-            check_former_figure(figure.model.scene(), figure.scene);
-        if (separate_backs(a, figure, document))
-            figure = figure_in(document, a);
-        const Made made = make_lobes(a, figure, session);
-        report = report_of(a, made, figure.poses.size());
-        add_levels_of(a, figure, made, report);
-        if (high_poly) // its surface can be missing near vertices
-            print_notices(a.high_poly.file.string(), made.mean.notices);
-        note_the_rest(a, figure.scene, made, input.has_transfer);
-        measure_frames(a, figure, made, session, report);
-        if (finest_receivers_of(figure).size() == figure.model.leveled().finest_receivers)
-            discard_transfer(document); // levels that do not move may have some, but readers need level 0
-        write_lobes(document, figure.scene,
-                    {made.lobes,
-                     {.poses = static_cast<int>(figure.poses.size()),
-                      .rays = made.mean.rays_per_vertex,
-                      .bounces = a.bake.bounces,
-                      .seed = a.bake.seed}});
-    });
-    const std::vector<std::byte> file = about(a.model, [&] { return encode_glb(document); });
+    Report report = about(a.model, [&] { return bake_lobes(a, input, session); });
+    const std::vector<std::byte> file = about(a.model, [&] { return encode_glb(input.document); });
     add_figures(report, {{"output", a.output.string()}, {"bytes_file", session.write(a.output, file)}});
     publish(report, a.json, session);
 }

@@ -185,9 +185,7 @@ ModelPointer bake(const Model& model, py::dict options, const py::object& progre
     choose(options, "back_sides", request.back_sides,
            {{"auto", pipeline::BackSides::automatic}, {"shared", pipeline::BackSides::shared}});
     choose(options, "levels", request.kept.levels,
-           {{"carry", pipeline::LevelMode::carry},
-            {"own", pipeline::LevelMode::own},
-            {"ignore", pipeline::LevelMode::ignore}});
+           {{"carry", LevelMode::carry}, {"own", LevelMode::own}, {"ignore", LevelMode::ignore}});
     choose(options, "stored_lobes", request.kept.lobes,
            {{"keep", pipeline::LobesOfFile::keep}, {"remove", pipeline::LobesOfFile::remove}});
     check_empty(options);
