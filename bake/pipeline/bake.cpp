@@ -89,7 +89,7 @@ OutgoingTransfer outgoing_transfer(const BakePlan& plan, Measured& measured, Tra
 /// Checks the detailed model, and computes the light that leaves it before the last bounce.
 BounceSources detailed_sources(const DetailedPlan& detail, Tracer& tracer, BakePlan& plan,
                                const Progress& progress) {
-    if (std::optional<std::string> notice = detail.surface.check())
+    if (std::optional<std::string> notice = detail.surface->check())
         plan.notices.push_back(std::move(*notice));
     check_memory(detail.plan);
     return bounce_sources(detail.plan, tracer, progress);

@@ -24,18 +24,25 @@ TextureNeeds texture_needs(const BakeOptions& options) {
 /// One operator for each medium of each node.
 std::vector<DiffusionOperator> make_diffusion(const Scene& scene, const Media& media,
                                               const Receivers& receivers) {
-    std::map<std::pair<std::size_t, int>, std::vector<glm::uvec3>> bodies;
-    for (const Primitive& primitive : scene.primitives) {
-        if (!media[primitive.material])
+    struct Body {
+        std::size_t material;
+        std::vector<glm::uvec3> triangles;
+    };
+    std::vector<Body> bodies;
+    const std::vector<std::optional<std::size_t>> body_of = bodies_of(scene, media);
+    for (std::size_t p = 0; p < scene.primitives.size(); ++p) {
+        const Primitive& primitive = scene.primitives[p];
+        if (!body_of[p])
             continue;
-        auto& triangles = bodies[{primitive.material, primitive.node}];
+        if (*body_of[p] == bodies.size())
+            bodies.push_back({primitive.material, {}});
         const auto first = static_cast<unsigned>(scene.vertex_arrays[primitive.vertices].first_receiver);
         for (const glm::uvec3& t : primitive.triangles)
-            triangles.push_back(t + first);
+            bodies[*body_of[p]].triangles.push_back(t + first);
     }
     std::vector<DiffusionOperator> diffusion;
-    for (auto& [key, triangles] : bodies)
-        diffusion.emplace_back(receivers, std::move(triangles), *media[key.first]);
+    for (Body& body : bodies)
+        diffusion.emplace_back(receivers, std::move(body.triangles), *media[body.material]);
     return diffusion;
 }
 
@@ -102,12 +109,27 @@ std::vector<std::string> added_media(const Scene& scene, const Media& media) {
     return names;
 }
 
-TraceScene trace_scene(const Scene& scene, const Media& media, const BakeOptions& options) {
-    std::vector<bool> solid;
+TraceScene trace_scene(const Scene& scene, const Media& media, const BakeOptions& options,
+                       const TraceScene* same_images) {
+    TraceSceneOptions settings{.threads = options.threads};
     for (const auto& medium : media)
-        solid.push_back(medium.has_value());
+        settings.solid.push_back(medium.has_value());
+    if (same_images)
+        return TraceScene::sharing(*same_images, scene, settings);
     return TraceScene(scene, load_textures(scene, options.repairs.bad_textures, texture_needs(options)),
-                      {.solid = std::move(solid), .threads = options.threads});
+                      settings);
+}
+
+std::vector<std::optional<std::size_t>> bodies_of(const Scene& scene, const Media& media) {
+    std::map<std::pair<std::size_t, int>, std::size_t> bodies;
+    std::vector<std::optional<std::size_t>> body_of;
+    for (const Primitive& primitive : scene.primitives) {
+        body_of.emplace_back();
+        if (media[primitive.material])
+            body_of.back() =
+                bodies.try_emplace({primitive.material, primitive.node}, bodies.size()).first->second;
+    }
+    return body_of;
 }
 
 std::vector<std::string> scene_notices(const TraceScene& scene, const BakeOptions& options) {
@@ -143,7 +165,7 @@ BakePlan plan_bake(const TraceScene& scene, const Media& media, const BakeOption
     const bool from_surfaces = (plan.bounces != 0 && !detail) || traits.transmission;
     TransportReceivers fronts = without_back_sides(vertex_receivers(scene.scene()));
     plan.transport = std::make_unique<const TransportReceivers>(measured_on(
-        detail ? &detail->surface : nullptr,
+        detail && detail->surface ? &*detail->surface : nullptr,
         from_surfaces ? with_back_sides(std::move(fronts.receivers), scene.surfaces()) : std::move(fronts)));
     plan.diffusion = make_diffusion(scene.scene(), media, plan.receivers());
     const bool grey_media =
@@ -166,6 +188,9 @@ BakePlan plan_bake(const TraceScene& scene, const Media& media, const BakeOption
 
 DetailedPlan::DetailedPlan(const Scene& scene, const FinerModel& finer, const BakeOptions& options)
     : media(choose_media(*finer.scene, options, &scene)), traced(trace_scene(*finer.scene, media, options)),
-      plan(plan_bake(traced, media, options)), surface(traced, finer.reach, scene.origin) {}
+      plan(plan_bake(traced, media, options)) {
+    if (finer.reach > 0)
+        surface.emplace(traced, finer.reach, scene.origin);
+}
 
 } // namespace prt

@@ -28,8 +28,14 @@ Media choose_media(const Scene& scene, const BakeOptions& options, const Scene* 
 /// BakeRecord::media.
 std::vector<std::string> added_media(const Scene& scene, const Media& media);
 
-/// Loads the textures that a bake of `scene` needs.
-TraceScene trace_scene(const Scene& scene, const Media& media, const BakeOptions& options);
+/// Loads the textures that a bake of `scene` needs. `same_images`: a scene with the same images, whose
+/// textures are shared; null: none.
+TraceScene trace_scene(const Scene& scene, const Media& media, const BakeOptions& options,
+                       const TraceScene* same_images = nullptr);
+
+/// Returns the index in BakePlan::diffusion of the body that each primitive is part of, without a value for
+/// primitives without a medium: [primitives].
+std::vector<std::optional<std::size_t>> bodies_of(const Scene& scene, const Media& media);
 
 struct DetailedPlan;
 
@@ -71,17 +77,17 @@ std::vector<std::string> scene_notices(const TraceScene& scene, const BakeOption
 BakePlan plan_bake(const TraceScene& scene, const Media& media, const BakeOptions& options,
                    DetailedPlan* detail = nullptr);
 
-/// A detailed model on which the receivers of a scene are measured. It cannot be moved, because its members
-/// keep references to each other.
+/// A detailed model that rays hit, on which the receivers of a scene are measured. It cannot be moved,
+/// because its members keep references to each other.
 struct DetailedPlan {
-    /// Keeps references to the model and to `options`.
+    /// Keeps references to the model and to `options`. FinerModel::reach 0: receivers keep their position.
     DetailedPlan(const Scene& scene, const FinerModel& finer, const BakeOptions& options);
     DetailedPlan(const DetailedPlan&) = delete;
 
     Media media;
     TraceScene traced;
-    BakePlan plan; ///< bounces between the vertices of the model
-    DetailedSurface surface;
+    BakePlan plan;                          ///< bounces between the vertices of the model
+    std::optional<DetailedSurface> surface; ///< no value: receivers keep their position
 };
 
 } // namespace prt

@@ -5,8 +5,10 @@
 #include "bake/scene/ray_scene.h"
 #include "bake/scene/surfaces.h"
 
+#include <memory>
 #include <mutex>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace prt {
@@ -26,14 +28,17 @@ public:
     /// Keeps a reference to `scene`. `textures`: load_textures(scene), or empty to ignore all textures.
     explicit TraceScene(const Scene& scene, std::vector<Texture> textures = {},
                         const TraceSceneOptions& options = {})
-        : scene_(scene), textures_(std::move(textures)), surfaces_(scene, textures_, options.solid),
-          threads_(options.threads) {}
+        : TraceScene(std::make_shared<const std::vector<Texture>>(std::move(textures)), scene, options) {}
+    /// Shares the textures of `other`, whose scene has the same images.
+    static TraceScene sharing(const TraceScene& other, const Scene& scene, const TraceSceneOptions& options) {
+        return TraceScene(other.textures_, scene, options);
+    }
     TraceScene(const TraceScene&) = delete;
     TraceScene& operator=(const TraceScene&) = delete;
 
     const Scene& scene() const { return scene_; }
     /// Returns the textures of the constructor: [images of the scene], or empty.
-    const std::vector<Texture>& textures() const { return textures_; }
+    const std::vector<Texture>& textures() const { return *textures_; }
     const Surfaces& surfaces() const { return surfaces_; }
     /// Returns TraceSceneOptions::threads; 0: all.
     int threads() const { return threads_; }
@@ -45,8 +50,13 @@ public:
     }
 
 private:
+    TraceScene(std::shared_ptr<const std::vector<Texture>> textures, const Scene& scene,
+               const TraceSceneOptions& options)
+        : scene_(scene), textures_(std::move(textures)), surfaces_(scene, *textures_, options.solid),
+          threads_(options.threads) {}
+
     const Scene& scene_;
-    std::vector<Texture> textures_;
+    std::shared_ptr<const std::vector<Texture>> textures_;
     Surfaces surfaces_;
     int threads_;
     mutable std::once_flag built_;

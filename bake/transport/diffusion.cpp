@@ -209,10 +209,22 @@ private:
 };
 
 void DiffusionOperator::apply(int channels, int order, std::span<float> values, int threads) const {
-    if (nodes_.empty())
-        return;
+    std::vector<glm::dvec3> positions;
+    for (const std::uint32_t member : members_)
+        positions.push_back(position(member));
+    const std::vector<float> exit = at(positions, channels, order, values, threads);
     const auto stride = static_cast<std::size_t>(channels * coefficient_count(order));
-    // The original values, then the means of the nodes, children before parents.
+    for (std::size_t i = 0; i < members_.size(); ++i)
+        std::copy_n(&exit[i * stride], stride, &values[members_[i] * stride]);
+}
+
+std::vector<float> DiffusionOperator::at(std::span<const glm::dvec3> positions, int channels, int order,
+                                         std::span<const float> values, int threads) const {
+    const auto stride = static_cast<std::size_t>(channels * coefficient_count(order));
+    std::vector<float> exit(positions.size() * stride);
+    if (nodes_.empty())
+        return exit;
+    // The values, then the means of the nodes, children before parents.
     std::vector<float> from((receivers_.size() + nodes_.size()) * stride);
     std::copy_n(values.begin(), receivers_.size() * stride, from.begin());
     float* const means = &from[receivers_.size() * stride];
@@ -230,14 +242,14 @@ void DiffusionOperator::apply(int channels, int order, std::span<float> values, 
         for (std::size_t i = 0; i < stride; ++i)
             mean[i] = share * means[(n + 1) * stride + i] + (1 - share) * means[node.right * stride + i];
     }
-    parallel_for(members_.size(), 64, threads, [&](std::size_t begin, std::size_t end) {
+    parallel_for(positions.size(), 64, threads, [&](std::size_t begin, std::size_t end) {
         Gatherer gatherer(*this, channels);
         for (std::size_t i = begin; i < end; ++i) {
-            const SparseRow row = gatherer.gather(position(members_[i]));
-            apply_rows(order, channels, channels == 1, std::span(&row, 1), from.data(),
-                       &values[members_[i] * stride]);
+            const SparseRow row = gatherer.gather(positions[i]);
+            apply_rows(order, channels, channels == 1, std::span(&row, 1), from.data(), &exit[i * stride]);
         }
     });
+    return exit;
 }
 
 bool DiffusionOperator::is_grey() const {

@@ -30,6 +30,11 @@ public:
     /// red kernel.
     void apply(int channels, int order, std::span<float> values, int threads) const;
 
+    /// Returns X' at `positions` on the body, [positions][channels][order²], from X at the receivers,
+    /// [receivers][channels][order²].
+    std::vector<float> at(std::span<const glm::dvec3> positions, int channels, int order,
+                          std::span<const float> values, int threads) const;
+
     /// Receivers of the body in ascending order.
     std::span<const std::uint32_t> members() const { return members_; }
 

@@ -12,6 +12,7 @@
 #include "bake/plan/memory.h"
 #include "bake/plan/transfer_terms.h"
 #include "bake/products/lightmaps/gutters.h"
+#include "bake/products/lightmaps/media_light.h"
 #include "bake/products/lightmaps/seams.h"
 #include "bake/products/lightmaps/texel_areas.h"
 #include "bake/products/lightmaps/texel_filter.h"
@@ -42,6 +43,8 @@ namespace {
 /// 41 548 with 2. The demo's room, compared with one texel: 0.1 to 0.4 % with 2, 0.3 to 0.7 % with 4, 0.4 to
 /// 0.8 % with 8 and more, because none of its edges is longer.
 constexpr double kTexelsBetweenSources = 8;
+/// Maximum distance in texels of vertices that receive the light of media.
+constexpr double kTexelsBetweenMedia = 2;
 /// Approximate maximum number of bytes of the gather rows that exist at a time.
 constexpr double kBytesOfRows = 1e9; ///< for the rows of one gather; lamps need additional memory
 
@@ -54,20 +57,6 @@ double texel_size(const TexelPositions& positions, const std::vector<std::vector
             texels += area_in_texels(t);
         }
     return texels > 0 ? std::sqrt(surface / texels) : 0;
-}
-
-/// Throws `Error` for leaves and media, which are supported at vertices only: their light was scattered on
-/// the other side.
-void check_materials(const Scene& scene, const Media& media) {
-    for (const Primitive& primitive : scene.primitives) {
-        const Material& material = scene.materials[primitive.material];
-        const bool leaf = material.transmission.factor > 0 && !media[primitive.material];
-        if (leaf || media[primitive.material])
-            throw Error(fmt::format(
-                "mesh {} primitive {} {}, which lightmaps do not support; bake at vertices, without --texels",
-                primitive.mesh, primitive.primitive,
-                leaf ? "has diffuse transmission" : "has subsurface scattering"));
-    }
 }
 
 /// Checks the memory of dense values of the largest map and of three times the values of all receivers:
@@ -108,8 +97,7 @@ public:
     LightmapBaker(const Scene& scene, const std::vector<Atlas>& atlases, const BakeOptions& options,
                   const FinerModel& finer)
         : scene_(scene), atlases_(atlases), options_(options), finer_(finer),
-          media_(choose_media(traced_scene(), options)) {
-        check_materials(traced_scene(), media_);
+          media_(choose_media(scene, options, finer.scene)), sample_areas_(scene.triangles()) {
         for (const Atlas& atlas : atlases)
             charts_.push_back(chart_triangles(scene, atlas));
     }
@@ -117,28 +105,46 @@ public:
     LightmapBake run(const Progress& progress) {
         const Stopwatch watch;
         const TexelPositions plain(scene_, nullptr);
-        const double spacing =
-            options_.bounces != 0 ? kTexelsBetweenSources * texel_size(plain, charts_) : HUGE_VAL;
-        const Scene even = with_short_edges(traced_scene(), spacing);
-        const TraceScene traced = trace_scene(even, media_, options_);
-        const BakePlan plan = plan_bake(traced, media_, options_);
-        check_memory(plan);
+        for (const auto& of_atlas : charts_)
+            for (const ChartTriangle& t : of_atlas)
+                sample_areas_[t.triangle] = static_cast<float>(area_of_sample(t, plain));
+        const double texel = texel_size(plain, charts_);
+        const Scene even = with_short_edges(finer_.scene ? *finer_.scene : scene_,
+                                            options_.bounces != 0 ? kTexelsBetweenSources * texel : HUGE_VAL);
+        DetailedPlan traced(scene_, {&even, finer_.scene ? finer_.reach : 0}, options_);
+        const TraceScene own = trace_scene(scene_, media_, options_, finer_.scene ? nullptr : &traced.traced);
+        const BakePlan plan = plan_bake(own, media_, options_, &traced);
+        check_memory(traced.plan);
         check_room(atlases_, plan.numbers(), options_.memory.limit);
-        const std::unique_ptr<Tracer> tracer = make_tracer(traced, options_.tracer);
+        const std::unique_ptr<Tracer> tracer = make_tracer(traced.traced, options_.tracer);
         statistics().notices = plan.notices;
-        std::optional<DetailedSurface> detail;
-        if (finer_.scene)
-            detail.emplace(traced, finer_.reach, scene_.origin);
-        const TexelPositions positions(scene_, detail ? &*detail : nullptr);
+        const TexelPositions positions(scene_, traced.surface ? &*traced.surface : nullptr);
         choose_rays(*tracer, positions);
-        const double share = plan.bounces != 0 || !plan.lamps.empty() ? 0.2 : 0;
-        BounceSources sources = bounce_sources(plan, *tracer, progress.range(0, share));
+        const double share = plan.bounces != 0 || !plan.lamps.empty() ? 0.2 : 0,
+                     scattered = share + (plan.diffusion.empty() ? 0 : 0.2);
+        BounceSources sources = bounce_sources(traced.plan, *tracer, progress.range(0, share));
         bounces_done_ = sources.bounces;
         statistics().rays += sources.rays;
-        statistics().sources = plan.bounces != 0 ? plan.receivers().size() : 0;
+        statistics().sources = plan.bounces != 0 ? traced.plan.receivers().size() : 0;
+        std::optional<MediaLight> media;
+        if (!plan.diffusion.empty()) {
+            media.emplace(MediaTask{plan, traced, sources, media_, kTexelsBetweenMedia * texel}, *tracer,
+                          progress.range(share, scattered));
+            statistics().rays += media->rays();
+        }
         statistics().seconds.sources = watch.seconds();
         TexelTransport transport(plan, std::move(sources), rows_at_once());
-        trace(plan, *tracer, positions, transport, progress.range(share, 1));
+        trace({.tracer = *tracer,
+               .scene = traced.traced,
+               .positions = positions,
+               .options = {.order = options_.order, .rays = rays_},
+               .inside = options_.repairs.inside,
+               .plan = &plan,
+               .sample_areas = sample_areas_,
+               .transport = &transport,
+               .media = media ? &*media : nullptr,
+               .notes_noise = denoises(*tracer)},
+              progress.range(scattered, 1));
         finish(plan, *tracer, positions, watch);
         progress.update(1);
         return std::move(result_);
@@ -146,7 +152,6 @@ public:
 
 private:
     LightmapStatistics& statistics() { return result_.statistics; }
-    const Scene& traced_scene() const { return finer_.scene ? *finer_.scene : scene_; }
 
     /// The noise of depth maps is alike in neighbouring texels, so that the filter does not recognise it.
     bool denoises(const Tracer& tracer) const {
@@ -171,39 +176,32 @@ private:
             std::clamp(kBytesOfRows / (rays * GatherOperator::kMaxBytesPerRay), 256.0, 65536.0));
     }
 
-    void trace(const BakePlan& plan, Tracer& tracer, const TexelPositions& positions,
-               TexelTransport& transport, const Progress& progress) {
-        light_.direct.layout = layout_of_one(options_.order, 1, TermKind::direct);
-        light_.rest.layout = layout_of_one(options_.order, plan.channels, TermKind::indirect);
-        light_.lamps.layout = transport.lamp_layout();
+    void trace(TexelTask task, const Progress& progress) {
+        light_.direct.layout = layout_of_one(options_.order, task.plan->direct_channels(), TermKind::direct);
+        light_.rest.layout = layout_of_one(options_.order, task.plan->channels, TermKind::indirect);
+        light_.lamps.layout = task.transport->lamp_layout();
+        light_.visible.layout = layout_of_one(1, 1, TermKind::direct);
         std::size_t first = 0;
         for (std::size_t a = 0; a < atlases_.size(); ++a) {
             const Progress term =
                 progress.range(static_cast<double>(a) / static_cast<double>(atlases_.size()),
                                static_cast<double>(a + 1) / static_cast<double>(atlases_.size()));
             const TexelSamples samples = sample_texels(charts_[a], atlases_[a]);
-            const TexelTask task{
-                .tracer = tracer,
-                .scene = plan.scene,
-                .positions = positions,
-                .options = {.order = options_.order, .rays = rays_, .seed = options_.seed + a},
-                .inside = options_.repairs.inside,
-                .transport = &transport,
-                .notes_noise = denoises(tracer)};
+            task.options.seed = options_.seed + a;
             TexelLight light = trace_texels(task, atlases_[a], samples.samples, term);
             statistics().rays += light.rays;
             if (task.notes_noise)
-                filter(a, positions, samples.samples, light);
+                filter(a, task.positions, samples.samples, light);
             for (std::size_t i = 0; i < light.lamps.size(); ++i)
                 light.lamps[i] += light.bounced_lamps[i];
-            take(a, first, positions, samples.samples, std::move(light), transport);
+            take(a, first, task.positions, samples.samples, std::move(light), *task.transport);
             first += atlases_[a].texels();
         }
     }
 
     void filter(std::size_t a, const TexelPositions& positions, std::span<const TexelSample> samples,
                 TexelLight& light) {
-        const TexelNet net(scene_, atlases_[a], charts_[a], samples, positions, light.lit);
+        const TexelNet net(scene_, atlases_[a], charts_[a], samples, positions, light.traced);
         const double noise = filter_texels(net, options_.threads, light);
         const auto measured = static_cast<double>(light.measured);
         noise_.squares += measured * noise * noise;
@@ -218,32 +216,34 @@ private:
         statistics().texels.sealed +=
             light.measured - static_cast<std::size_t>(std::ranges::count(light.lit, true));
         const std::vector<SeamPoint> seams = seam_points(scene_, atlas);
-        const auto order2 = light_.direct.dimension();
-        const auto close = [&](std::vector<float>& values, std::size_t stride) {
-            if (stride == 0)
+        const auto stride = light_.direct.dimension();
+        const auto close = [&](std::vector<float>& values, std::size_t numbers) {
+            if (numbers == 0)
                 return;
-            fill_gutters(atlas, light.lit, values, stride);
-            stitch_seams(atlas, seams, light.lit, values, stride);
+            fill_gutters(atlas, light.lit, values, numbers);
+            stitch_seams(atlas, seams, light.lit, values, numbers);
         };
-        fill_gutters(atlas, light.lit, light.direct, order2);
-        jumps_.before += squared_jumps(atlas, seams, light.direct, order2);
-        stitch_seams(atlas, seams, light.lit, light.direct, order2);
-        jumps_.after += squared_jumps(atlas, seams, light.direct, order2);
+        fill_gutters(atlas, light.lit, light.direct, stride);
+        jumps_.before += squared_jumps(atlas, seams, light.direct, stride);
+        stitch_seams(atlas, seams, light.lit, light.direct, stride);
+        jumps_.after += squared_jumps(atlas, seams, light.direct, stride);
         jumps_.points += seams.size();
         close(light.sky, transport.sky_stride());
         close(light.lamps, transport.lamp_stride());
+        close(light.visible, 1);
 
         const TexelAreas areas = texel_areas(atlas, charts_[a], positions, samples);
         BakedLightmap& map = result_.lightmap;
         const std::size_t begin = map.texels.size();
         for (const std::uint32_t texel : areas.texels) {
             map.texels.push_back(static_cast<std::uint32_t>(first + texel));
-            const auto append = [&](const std::vector<float>& from, std::size_t stride, Transfer& to) {
+            const auto append = [&](const std::vector<float>& from, std::size_t numbers, Transfer& to) {
                 to.vectors.insert(to.vectors.end(),
-                                  from.begin() + static_cast<std::ptrdiff_t>(texel * stride),
-                                  from.begin() + static_cast<std::ptrdiff_t>((texel + 1) * stride));
+                                  from.begin() + static_cast<std::ptrdiff_t>(texel * numbers),
+                                  from.begin() + static_cast<std::ptrdiff_t>((texel + 1) * numbers));
             };
-            append(light.direct, order2, light_.direct);
+            append(light.direct, stride, light_.direct);
+            append(light.visible, 1, light_.visible);
             append(light.sky, transport.sky_stride(), light_.rest);
             append(light.lamps, transport.lamp_stride(), light_.lamps);
         }
@@ -296,13 +296,14 @@ private:
         if (std::optional<std::string> notice =
                 positions.detail() ? positions.detail()->check() : std::nullopt)
             s.notices.push_back(std::move(*notice));
-        s.mean_visibility = mean_visibility(light_.direct, map.areas);
+        s.mean_visibility = mean_visibility(light_.visible, map.areas);
         s.denoised = denoises(tracer);
         s.sampling_error = noise_.texels > 0 ? std::sqrt(noise_.squares / noise_.texels)
                                              : estimated_error(tracer, positions);
         BakedTransfer& baked = map.baked;
-        baked.transfer = plan.bounces != 0 ? joined(light_.direct, narrowed(std::move(light_.rest)))
-                                           : std::move(light_.direct);
+        baked.transfer = narrowed(std::move(light_.direct));
+        if (!light_.rest.vectors.empty())
+            baked.transfer = joined(baked.transfer, narrowed(std::move(light_.rest)));
         if (!plan.lamps.empty())
             baked.transfer = with_lamps(baked.transfer, light_.lamps, plan.lamps);
         baked.record = {.bounces = bounces_done_,
@@ -312,7 +313,8 @@ private:
                         .method = tracer.method(),
                         .backend = tracer.backend(),
                         .receivers = receivers_id(scene_),
-                        .sampling_error = s.sampling_error};
+                        .sampling_error = s.sampling_error,
+                        .media = added_media(scene_, media_)};
         s.rounding_error = float16_rounding_error(baked.transfer, map.areas);
         baked.storage = storage_for(options_.memory.storage,
                                     {.rounding = s.rounding_error, .sampling = s.sampling_error}, s.notices);
@@ -337,8 +339,9 @@ private:
     const FinerModel& finer_;
     Media media_;
     std::vector<std::vector<ChartTriangle>> charts_; ///< [atlases]
+    std::vector<float> sample_areas_;                ///< [triangles] area_of_sample
     struct Parts {
-        Transfer direct, rest, lamps;
+        Transfer direct, rest, lamps, visible;
     } light_; ///< light of the receivers that are complete
     struct Jumps {
         double before = 0, after = 0; ///< squared

@@ -28,6 +28,10 @@ double area_in_texels(const ChartTriangle& t) {
     return std::abs(a.x * b.y - a.y * b.x) / 2;
 }
 
+double area_of_sample(const ChartTriangle& t, const TexelPositions& positions) {
+    return positions.area(t.triangle) / std::max(kSamplesOfTexel * area_in_texels(t), 1.0);
+}
+
 TexelAreas texel_areas(const Atlas& atlas, std::span<const ChartTriangle> charts,
                        const TexelPositions& positions, std::span<const TexelSample> samples) {
     std::unordered_map<std::uint32_t, const ChartTriangle*> chart_of;
@@ -41,9 +45,7 @@ TexelAreas texel_areas(const Atlas& atlas, std::span<const ChartTriangle> charts
     for (const TexelSample& sample : samples) {
         mark_round(atlas, sample.texel, marked);
         const ChartTriangle& chart = *chart_of.at(sample.triangle);
-        // A sample represents its share of a texel, with the area of the texel on the surface there.
-        const double covered = std::max(area_in_texels(chart), 1.0 / kSamplesOfTexel),
-                     area = positions.area(sample.triangle) / (kSamplesOfTexel * covered);
+        const double area = area_of_sample(chart, positions);
         read += area;
         const BilinearTexels filter = bilinear_at(atlas, position_of(chart, glm::dvec2(sample.uv)));
         for (std::size_t i = 0; i < 4; ++i) {

@@ -19,6 +19,8 @@ struct TexelAreas {
 
 /// Returns the area of a chart's triangle in texels.
 double area_in_texels(const ChartTriangle& triangle);
+/// Returns the area of the surface that a sample on the triangle represents, m²: its share of a texel.
+double area_of_sample(const ChartTriangle& triangle, const TexelPositions& positions);
 
 TexelAreas texel_areas(const Atlas& atlas, std::span<const ChartTriangle> charts,
                        const TexelPositions& positions, std::span<const TexelSample> samples);

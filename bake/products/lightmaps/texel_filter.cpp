@@ -209,12 +209,13 @@ private:
     }
 
     void filter_sky(const Band& band, const NoiseFilter& filter) {
-        const std::size_t columns = direct_.size() / texels_, stride = sky_.size() / texels_,
-                          channels = std::max<std::size_t>(1, stride / columns),
-                          middle = channels > 1 ? columns : 0, count = light_.noise.representative.size();
-        const auto direct = [&](std::uint32_t t, std::size_t c) { return direct_[t * columns + c]; };
+        const std::size_t unbounced = direct_.size() / texels_, stride = sky_.size() / texels_,
+                          columns = light_.noise.columns,
+                          middle = std::max(unbounced, stride) > columns ? columns : 0,
+                          count = light_.noise.representative.size();
+        const auto direct = [&](std::uint32_t t, std::size_t c) { return direct_[t * unbounced + c]; };
         const auto all = [&](std::uint32_t t, std::size_t c) {
-            return direct(t, c % columns) + (stride > 0 ? sky_[t * stride + c] : 0.0f);
+            return direct(t, c % unbounced) + (stride > 0 ? sky_[t * stride + c] : 0.0f);
         };
         // Only the selected columns have noise.
         std::vector<std::size_t> position_of(columns);
@@ -229,13 +230,13 @@ private:
         const FitSolver solver = filter.fit(middle_of_all, light_.noise.representative, noise);
         noise_ = std::hypot(noise_, filter.norm(solver, light_.noise.representative, noise));
         norm_ = std::hypot(norm_, filter.norm(solver, light_.noise.representative, middle_of_all));
-        filter.apply(solver, columns, direct, [&](std::uint32_t t, std::size_t c, float value) {
+        filter.apply(solver, unbounced, direct, [&](std::uint32_t t, std::size_t c, float value) {
             if (is_in(band, t))
-                light_.direct[t * columns + c] = value;
+                light_.direct[t * unbounced + c] = value;
         });
         filter.apply(solver, stride, all, [&](std::uint32_t t, std::size_t c, float value) {
             if (is_in(band, t))
-                light_.sky[t * stride + c] = value - light_.direct[t * columns + c % columns];
+                light_.sky[t * stride + c] = value - light_.direct[t * unbounced + c % unbounced];
         });
     }
 

@@ -24,11 +24,16 @@ double TexelPositions::area(std::uint32_t triangle) const {
     return glm::length(glm::cross(glm::dvec3(positions[c.y]) - a, glm::dvec3(positions[c.z]) - a)) / 2;
 }
 
-void TexelPositions::append(const TexelSample& sample, float area, Receivers& receivers) const {
+glm::vec3 TexelPositions::position(const TexelSample& sample) const {
+    return interpolated(vertices_.positions, corners_[sample.triangle], sample.uv);
+}
+
+void TexelPositions::append(const TexelSample& sample, float area, Receivers& receivers, Side side) const {
     const glm::uvec3& c = corners_[sample.triangle];
-    const glm::vec3 plane = plane_of(vertices_.positions, c),
-                    normal = unit_or(interpolated(vertices_.normals, c, sample.uv), plane);
-    receivers.positions.push_back(interpolated(vertices_.positions, c, sample.uv));
+    const float sign = side == Side::front ? 1.0f : -1.0f;
+    const glm::vec3 plane = sign * plane_of(vertices_.positions, c),
+                    normal = unit_or(sign * interpolated(vertices_.normals, c, sample.uv), plane);
+    receivers.positions.push_back(position(sample));
     receivers.normals.push_back(normal);
     receivers.starts.push_back(plane == glm::vec3(0) ? normal : plane);
     receivers.areas.push_back(area);

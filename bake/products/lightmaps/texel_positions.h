@@ -4,6 +4,7 @@
 
 #include "bake/products/lightmaps/texel_samples.h"
 #include "bake/scene/detailed_surface.h"
+#include "bake/scene/ray_starts.h"
 
 #include <cstdint>
 #include <vector>
@@ -15,8 +16,10 @@ class TexelPositions {
 public:
     /// Keeps a reference to `detail`; null: texels are measured on the scene.
     TexelPositions(const Scene& scene, const DetailedSurface* detail);
-    /// Appends a receiver of that area.
-    void append(const TexelSample& sample, float area, Receivers& receivers) const;
+    /// Appends a receiver of that area on one side of the surface.
+    void append(const TexelSample& sample, float area, Receivers& receivers, Side side = Side::front) const;
+    /// Returns the position of a sample on the surface of the scene.
+    glm::vec3 position(const TexelSample& sample) const;
     /// Surface on which texels are measured; null: the scene.
     const DetailedSurface* detail() const { return detail_; }
     /// Area of a triangle of the scene, m².

@@ -37,7 +37,9 @@ TexelTransport::TexelTransport(const BakePlan& plan, BounceSources sources, std:
 }
 
 std::size_t TexelTransport::sky_stride() const {
-    return bounces() ? static_cast<std::size_t>(plan_.channels * coefficient_count(plan_.options.order)) : 0;
+    return bounces() || !plan_.diffusion.empty()
+               ? static_cast<std::size_t>(plan_.channels * coefficient_count(plan_.options.order))
+               : 0;
 }
 
 std::size_t TexelTransport::lamp_stride() const {
@@ -61,7 +63,8 @@ void TexelTransport::set_row(std::size_t row, const Receivers& receivers, std::s
 }
 
 void TexelTransport::gather_sky(std::span<float> to) const {
-    gather_.apply(sky_order_, sky_, 0, to, plan_.options.threads);
+    if (bounces())
+        gather_.apply(sky_order_, sky_, 0, to, plan_.options.threads);
 }
 
 std::size_t TexelTransport::light_of_lamps(Tracer& tracer, const Receivers& receivers, std::uint64_t seed,

@@ -20,7 +20,8 @@ public:
 
     bool bounces() const { return plan_.bounces != 0; }
     std::size_t rows() const { return gather_.rows(); }
-    /// Numbers per texel of bounced sky light, and of lamps; 0 if there is no such light.
+    /// Numbers per texel of sky light that bounced or passed media, and of lamps; 0 if there is no such
+    /// light.
     std::size_t sky_stride() const;
     std::size_t lamp_stride() const;
 
@@ -31,7 +32,7 @@ public:
                  const TraceOptions& options);
     /// Clears the rows.
     void clear();
-    /// Bounced sky light of the first rows, `to` [rows][sky_stride()].
+    /// Bounced sky light of the first rows, `to` [rows][sky_stride()]; zero without bounces.
     void gather_sky(std::span<float> to) const;
     /// Computes light of lamps at `receivers`, one for each of the first rows, without a bounce and bounced,
     /// [rows][lamp_stride()] each, with samples of `seed`. Returns the number of traced rays.
