@@ -3,6 +3,7 @@
 #include "bake/reference/primary_rays.h"
 
 #include "bake/scene/interpolated.h"
+#include "bake/scene/opposite_triangles.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -75,11 +76,18 @@ float PrimaryRays::solid_angle(int x, int y) const {
 }
 
 bool PrimaryRays::next(const glm::vec3& along, int x, int y, float& from, SeenSurface& surface) const {
-    const auto shows = [&](unsigned id) { return surface_at(id, along, x, y).base.a > 0; };
+    // Rays hit only one of two opposite triangles.
+    const auto seen = [&](unsigned id) {
+        glm::vec2 unused(0);
+        const SeenSurface here = surface_at(id, along, x, y);
+        return here.base.a > 0 || !rays_.opposites().move_to_front(id, unused) ? here
+                                                                               : surface_at(id, along, x, y);
+    };
+    const auto shows = [&](unsigned id) { return seen(id).base.a > 0; };
     const auto hit = rays_.nearest({picture_.camera.position, along, from}, std::ref(shows));
     if (!hit)
         return false;
-    surface = surface_at(hit->triangle, along, x, y);
+    surface = seen(hit->triangle);
     from = std::nextafter(hit->distance, std::numeric_limits<float>::infinity());
     return true;
 }

@@ -197,19 +197,16 @@ TEST_F(Pictures, ShowTheBackgroundInTheViewDirection) {
     }
 }
 
-/// Returns two coincident one-sided square sheets, one facing +Z and one facing -Z.
-Scene coincident_sheets(bool front_first) {
-    const auto sheet = [](float sign) {
-        return test::painted(
-            test::SceneBuilder().quad({-sign, -1, 0}, {sign, -1, 0}, {sign, 1, 0}, {-sign, 1, 0}).build(),
-            glm::vec3(1));
-    };
-    return front_first ? test::join({sheet(1), sheet(-1)}) : test::join({sheet(-1), sheet(1)});
+/// Returns a one-sided square sheet that faces +Z or -Z, as `sign`.
+Scene sheet(float sign) {
+    return test::painted(
+        test::SceneBuilder().quad({-sign, -1, 0}, {sign, -1, 0}, {sign, 1, 0}, {-sign, 1, 0}).build(),
+        glm::vec3(1));
 }
 
 TEST(RayRenderer, CoincidentSheetsShowTheFacingSheet) {
-    for (const bool front_first : {true, false}) {
-        const Scene scene = coincident_sheets(front_first);
+    for (const Scene& scene : {test::join({sheet(1), sheet(-1)}), test::join({sheet(-1), sheet(1)}),
+                               test::with_opposites(sheet(1))}) {
         std::vector<glm::vec3> colors; // red for the sheets that face +Z, green for the others
         for (const VertexArray& array : scene.vertex_arrays)
             for (const glm::vec3& normal : array.normals)
