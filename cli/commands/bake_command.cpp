@@ -136,7 +136,7 @@ void add_subsurface(CLI::App* command, SubsurfaceOptions& subsurface) {
                 "\n"
                 "repeat the option for several materials, each once; type an entry for all materials\n"
                 "  first: it replaces the entries before it\n"
-                "an unknown material is an error; not with --texels\n"
+                "an unknown material is an error\n"
                 "default: materials scatter that have KHR_materials_diffuse_transmission, and\n"
                 "  KHR_materials_volume with thickness and attenuation distance\n"
                 "  an entry of --subsurface replaces their medium")
@@ -201,8 +201,8 @@ void add_measurement(CLI::App* command, BakeOptions& options) {
            "no effect with --refine, --fit surface (also if --fit auto chooses it), --method raster\n"
            "if --instances shares transfer: effect only on bounces of lamps, and on coarser levels of\n"
            "  --levels own\n"
-           "no effect on direct light of lamps, on probes of --volume, and on materials with subsurface\n"
-           "  scattering or diffuse transmission",
+           "no effect on direct light of lamps, on probes of --volume, on materials with subsurface\n"
+           "  scattering, and without --texels also on diffuse transmission",
            "on");
     add_device(command, options.tracer);
     add_fit(command, options.fit,
@@ -304,8 +304,7 @@ void add_bake(CLI::App& app, Session& session) {
         "instances that share transfer have the same vertices: light at one of them is sufficient");
     a.texels_option = add_texels(command, a.texels,
                                  "bake lightmaps instead of vertices: N x N texels, or N per metre\n"
-                                 "not with --fit, --refine and --instances shared\n"
-                                 "not for materials with subsurface scattering or diffuse transmission")
+                                 "not with --fit, --refine and --instances shared")
                           ->excludes(command->get_option("--fit")); // texels measure light at their centers
     a.volume_option = add_volume(command, a.volume);
     add_instances(command, a.instances);

@@ -191,6 +191,63 @@ TEST_F(Lightmaps, ShowSunsForMoreVerticesThanTexels) {
     EXPECT_NEAR(brightness[0], brightness[1], 0.02 * brightness[1]);
 }
 
+/// A leaf beside a block of marble, which is not in the picture, from above and from below in the sun.
+TEST_F(Lightmaps, ShowSheetsLikeThePathTracer) {
+    GlbFile leaf = scene_file(SceneBuilder().floor({0, 0, 0}, 1).build());
+    leaf.json["materials"] = {
+        {{"name", "leaf"},
+         {"doubleSided", true},
+         {"pbrMetallicRoughness", {{"baseColorFactor", {0.2, 0.5, 0.1, 1}}, {"metallicFactor", 0}}},
+         {"extensions",
+          {{"KHR_materials_diffuse_transmission",
+            {{"diffuseTransmissionFactor", 0.5}, {"diffuseTransmissionColorFactor", {0.5, 0.7, 0.1}}}}}}},
+        {{"name", "stone"}}};
+    leaf.json["extensionsUsed"] = {"KHR_materials_diffuse_transmission"};
+    leaf.json["meshes"][0]["primitives"][0]["material"] = 0;
+    leaf.json["meshes"].push_back(leaf.json["meshes"][0]);
+    leaf.json["meshes"][1]["primitives"][0]["material"] = 1;
+    leaf.json["nodes"].push_back({{"mesh", 1}, {"translation", {5, 0, 0}}});
+    leaf.json["scenes"][0]["nodes"].push_back(1);
+    leaf.write(folder / kScene);
+    ASSERT_EQ(bake({"--texels", "16", "--texels", "unwrap", "--subsurface",
+                    "stone=0.01,0.02,0.03,0.001,0.001,0.001", "--bounces", "1", "--json", at("bake.json")})
+                  .status,
+              0);
+    EXPECT_EQ(read_json(folder / "bake.json")["terms"].size(), 2u);
+    ASSERT_EQ(
+        prt({"compress", at("baked.glb"), "-o", at("shipped.glb"), "--clusters", "4", "--components", "4"})
+            .status,
+        0);
+    const auto sky = [](float upward) {
+        std::vector<float> coefficients(36);
+        coefficients[0] = 1;
+        coefficients[1] = upward;
+        return coefficients;
+    };
+    std::ofstream(folder / "light.json") << nlohmann::json{
+        {"prtkit_light", 1},
+        {"order", 6},
+        {"coefficients", {{"red", sky(0.2f)}, {"green", sky(0.1f)}, {"blue", sky(-0.2f)}}},
+        {"suns", {{{"towards", {0, 0.8, 0.6}}, {"irradiance", {1, 2, 3}}, {"half_angle_radians", 0.01}}}}};
+    const auto brightness = [&](const char* model, const char* camera, std::vector<std::string> more) {
+        more.insert(more.begin(),
+                    {"render", at(model), "--lights", at("light.json"), "-o", at("p.exr"), "--size", "16x8",
+                     "--device", "cpu", "--camera", camera, "--look-at", "0,0,0"});
+        const Outcome drawn = prt(more);
+        EXPECT_EQ(drawn.status, 0) << drawn.err;
+        glm::dvec3 sum(0);
+        for (const glm::vec3& p : load_environment(folder / "p.exr").environment.image.pixels)
+            sum += glm::dvec3(p) / 128.0;
+        return sum;
+    };
+    for (const char* camera : {"0.1,1.4,0", "0.1,-1.4,0"}) {
+        const glm::dvec3 truth = brightness(kScene, camera, {"--path-trace", "32"}),
+                         lit = brightness("shipped.glb", camera, {});
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(lit[c], truth[c], 0.03 * truth[c]) << camera << " " << c;
+    }
+}
+
 TEST_F(Lightmaps, AreRejectedIfUnsupported) {
     expect_refused(bake({"--texels", "64"}), "has no TEXCOORD_1");
     expect_refused(bake({"--texels", "unwrap"}), "--texels needs a size");

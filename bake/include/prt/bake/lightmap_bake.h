@@ -34,8 +34,9 @@ struct LightmapStatistics {
         double sources = 0, texels = 0, all = 0;
     };
     Seconds seconds;
-    /// Share of a uniform sky's light that arrives without bounces, 0..1: mean over the receivers, weighted
-    /// by area, of T_0 / Y_00. T_0 is the first coefficient of direct light, Y_00 the constant SH function.
+    /// Share of a uniform sky's light that arrives at fronts without bounces, 0..1: mean over the receivers,
+    /// weighted by area, of T_0 / Y_00. T_0 is the first coefficient of direct light before it passes sheets
+    /// or media, Y_00 the constant SH function.
     double mean_visibility = 0;
     /// Estimated relative L2 error of the transfer by noise of rays. If `denoised`, it applies to all light
     /// of the sky after the noise filter, otherwise to direct light of the sky.
@@ -64,8 +65,9 @@ struct LightmapBake {
 /// up to options.rays rays (at least one for each of up to four points), plus the rays to lamps. Light
 /// bounces between vertices, and from vertices to texels. options.fit applies to these vertices, and edges
 /// longer than eight texels are split for them. If `finer` has a scene, that scene blocks and reflects light
-/// instead of `scene`, and texels are measured on its surface as in `occlusion_maps`. Throws the errors of
-/// `bake` and `check_finer`, and `Error` for surfaces that transmit light or contain a medium, and if
+/// instead of `scene`, and texels are measured on its surface as in `occlusion_maps`. Texels on sheets and
+/// media of `scene` have the exit transfer that vertices there would have; for media, light arrives at
+/// vertices of edges of at most two texels. Throws the errors of `bake` and `check_finer`, and `Error` if
 /// `finer` has no surface near the scene.
 LightmapBake bake_lightmap(const Scene& scene, const std::vector<Atlas>& atlases, const BakeOptions& options,
                            const FinerModel& finer = {}, const Progress& progress = {});
