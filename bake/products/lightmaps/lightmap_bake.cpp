@@ -59,6 +59,17 @@ double texel_size(const TexelPositions& positions, const std::vector<std::vector
     return texels > 0 ? std::sqrt(surface / texels) : 0;
 }
 
+/// Returns the area of a sample on each triangle: [triangles].
+std::vector<float> areas_of_samples(const TexelPositions& positions,
+                                    const std::vector<std::vector<ChartTriangle>>& charts,
+                                    std::size_t triangles) {
+    std::vector<float> areas(triangles);
+    for (const auto& of_atlas : charts)
+        for (const ChartTriangle& t : of_atlas)
+            areas[t.triangle] = static_cast<float>(area_of_sample(t, positions));
+    return areas;
+}
+
 /// Checks the memory of dense values of the largest map and of three times the values of all receivers:
 /// separately, in parts, and in the file. Calculated, not measured.
 void check_room(const std::vector<Atlas>& atlases, std::size_t numbers, double limit) {
@@ -97,7 +108,7 @@ public:
     LightmapBaker(const Scene& scene, const std::vector<Atlas>& atlases, const BakeOptions& options,
                   const FinerModel& finer)
         : scene_(scene), atlases_(atlases), options_(options), finer_(finer),
-          media_(choose_media(scene, options, finer.scene)), sample_areas_(scene.triangles()) {
+          media_(choose_media(scene, options, finer.scene)) {
         for (const Atlas& atlas : atlases)
             charts_.push_back(chart_triangles(scene, atlas));
     }
@@ -105,9 +116,7 @@ public:
     LightmapBake run(const Progress& progress) {
         const Stopwatch watch;
         const TexelPositions plain(scene_, nullptr);
-        for (const auto& of_atlas : charts_)
-            for (const ChartTriangle& t : of_atlas)
-                sample_areas_[t.triangle] = static_cast<float>(area_of_sample(t, plain));
+        const std::vector<float> sample_areas = areas_of_samples(plain, charts_, scene_.triangles());
         const double texel = texel_size(plain, charts_);
         const Scene even = with_short_edges(finer_.scene ? *finer_.scene : scene_,
                                             options_.bounces != 0 ? kTexelsBetweenSources * texel : HUGE_VAL);
@@ -128,7 +137,7 @@ public:
         statistics().sources = plan.bounces != 0 ? traced.plan.receivers().size() : 0;
         std::optional<MediaLight> media;
         if (!plan.diffusion.empty()) {
-            media.emplace(MediaTask{plan, traced, sources, media_, kTexelsBetweenMedia * texel}, *tracer,
+            media.emplace(plan, traced, sources, media_, kTexelsBetweenMedia * texel, *tracer,
                           progress.range(share, scattered));
             statistics().rays += media->rays();
         }
@@ -140,7 +149,7 @@ public:
                .options = {.order = options_.order, .rays = rays_},
                .inside = options_.repairs.inside,
                .plan = &plan,
-               .sample_areas = sample_areas_,
+               .sample_areas = sample_areas,
                .transport = &transport,
                .media = media ? &*media : nullptr,
                .notes_noise = denoises(*tracer)},
@@ -339,7 +348,6 @@ private:
     const FinerModel& finer_;
     Media media_;
     std::vector<std::vector<ChartTriangle>> charts_; ///< [atlases]
-    std::vector<float> sample_areas_;                ///< [triangles] area_of_sample
     struct Parts {
         Transfer direct, rest, lamps, visible;
     } light_; ///< light of the receivers that are complete

@@ -28,39 +28,31 @@ Scene media_of(const Scene& scene, const Media& media) {
 
 } // namespace
 
-MediaLight::MediaLight(const MediaTask& task, Tracer& tracer, const Progress& progress)
-    : surfaces_(task.plan.scene.surfaces()), body_of_(bodies_of(task.plan.scene.scene(), task.media)),
-      options_(task.plan.options),
-      scene_(with_short_edges(media_of(task.plan.scene.scene(), task.media), task.spacing)) {
+MediaLight::MediaLight(const BakePlan& plan, DetailedPlan& traced, const BounceSources& lit,
+                       const Media& media, double spacing, Tracer& tracer, const Progress& progress)
+    : surfaces_(plan.scene.surfaces()), body_of_(bodies_of(plan.scene.scene(), media)),
+      options_(plan.options), scene_(with_short_edges(media_of(plan.scene.scene(), media), spacing)),
+      own_(trace_scene(scene_, media, options_)), plan_(plan_bake(own_, media, options_, &traced)) {
+    check_memory(plan_);
     options_.fit = FitMode::vertex; // vertices are as near to each other as samples of a fit
-    TraceSceneOptions settings{.threads = options_.threads};
-    for (const auto& medium : task.media)
-        settings.solid.push_back(medium.has_value());
-    textureless_.emplace(scene_, std::vector<Texture>(), settings);
-    plan_.emplace(plan_bake(*textureless_, task.media, options_, &task.traced));
-    check_memory(*plan_);
-    measure_light(task, tracer, progress);
-}
-
-void MediaLight::measure_light(const MediaTask& task, Tracer& tracer, const Progress& progress) {
     BakeStatistics asked;
-    Measured measured = measure(*plan_, tracer, LastOfLamps::as_others, asked, progress.range(0, 0.9),
-                                task.lit.known_connections());
-    rays_ = measured.direct.rays + measured.sealed.rays + measured.lamps.light.rays + asked.rays;
+    Measured measured = measure(plan_, tracer, LastOfLamps::as_others, asked, progress.range(0, 0.9),
+                                lit.known_connections());
+    rays_ = measured.direct.rays + measured.sealed.rays + measured.lamps.light.rays;
     visible_ = static_cast<float>(measured.direct.mean_visibility * kY00);
     TransportOperators operators{.refill = measured.sealed.refill,
                                  .diffusion = {}, // light that arrives
                                  .gather = measured.direct.gather ? &*measured.direct.gather : nullptr,
-                                 .sources = &task.lit.sky};
-    Transfer direct = plan_->channels == 3 ? in_color(measured.direct.transfer) : measured.direct.transfer;
-    sky_ = propagate(std::move(direct), operators, plan_->bounces, options_.threads, {{}, progress.stop})
+                                 .sources = &lit.sky};
+    Transfer direct = plan_.channels == 3 ? in_color(measured.direct.transfer) : measured.direct.transfer;
+    sky_ = propagate(std::move(direct), operators, plan_.bounces, options_.threads, {{}, progress.stop})
                .transfer;
-    if (plan_->lamps.empty())
+    if (plan_.lamps.empty())
         return;
-    operators.sources = &task.lit.lamps;
+    operators.sources = &lit.lamps;
     BakeNoise noise;
-    const std::vector<bool> none(plan_->receivers().size());
-    lamps_ = propagate_lamps(*plan_, measured, operators, {.left_out = &none, .noise = &noise},
+    const std::vector<bool> none(plan_.receivers().size());
+    lamps_ = propagate_lamps(plan_, measured, operators, {.left_out = &none, .noise = &noise},
                              progress.range(0.9, 1))
                  .transfer;
 }
@@ -69,8 +61,8 @@ MediaLight::Exit MediaLight::exit(std::size_t body, std::span<const glm::dvec3> 
     const auto scatter = [&](const Transfer& light) {
         return light.vectors.empty()
                    ? std::vector<float>()
-                   : plan_->diffusion[body].at(positions, light.layout.channels(), light.layout.order,
-                                               light.vectors, options_.threads);
+                   : plan_.diffusion[body].at(positions, light.layout.channels(), light.layout.order,
+                                              light.vectors, options_.threads);
     };
     return {scatter(sky_), scatter(lamps_)};
 }

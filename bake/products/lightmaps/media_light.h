@@ -17,23 +17,19 @@
 
 namespace prt {
 
-struct MediaTask {
-    const BakePlan& plan;     ///< plan of the scene with the texels
-    DetailedPlan& traced;     ///< surfaces that rays hit
-    const BounceSources& lit; ///< light of `traced`
-    const Media& media;       ///< [materials of the scene]
-    double spacing;           ///< maximum length of an edge between vertices of media, metres
-};
-
 /// Measures the light that arrives at evenly spaced vertices of media, and scatters it to points on them
-/// (docs/math.md, section 8). Keeps a reference to the scene of the plan.
+/// (docs/math.md, section 18).
 class MediaLight {
 public:
-    MediaLight(const MediaTask& task, Tracer& tracer, const Progress& progress);
+    /// Splits edges of media that are longer than `spacing`, metres. `plan`: plan of the scene with the
+    /// texels, to which a reference is kept. `traced`, `lit`: the surfaces that rays hit, and their light.
+    /// `media`: [materials of the scene].
+    MediaLight(const BakePlan& plan, DetailedPlan& traced, const BounceSources& lit, const Media& media,
+               double spacing, Tracer& tracer, const Progress& progress);
     MediaLight(const MediaLight&) = delete;
 
     /// Returns the number of bodies: one for each medium of each node.
-    std::size_t bodies() const { return plan_->diffusion.size(); }
+    std::size_t bodies() const { return plan_.diffusion.size(); }
     /// Returns the body that a triangle of the scene is part of; no value for triangles without a medium.
     std::optional<std::size_t> body_of(std::uint32_t triangle) const {
         return body_of_[surfaces_.primitive(triangle)];
@@ -51,14 +47,12 @@ public:
     std::size_t rays() const { return rays_; }
 
 private:
-    void measure_light(const MediaTask& task, Tracer& tracer, const Progress& progress);
-
     const Surfaces& surfaces_;
     std::vector<std::optional<std::size_t>> body_of_; ///< [primitives]
     BakeOptions options_;
-    Scene scene_; ///< the media, with short edges
-    std::optional<const TraceScene> textureless_;
-    std::optional<const BakePlan> plan_;
+    const Scene scene_; ///< the media, with short edges
+    const TraceScene own_;
+    const BakePlan plan_;
     Transfer sky_, lamps_; ///< light that arrives at the vertices
     float visible_ = 0;
     std::size_t rays_ = 0;

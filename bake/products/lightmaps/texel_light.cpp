@@ -19,7 +19,7 @@
 namespace prt {
 namespace {
 
-constexpr std::size_t kTexelsAtOnce = 1 << 18, kMediaTexelsAtOnce = 1 << 16;
+constexpr std::size_t kTexelsAtOnce = 1 << 18, kMediaTexelsAtOnce = 1 << 14;
 
 /// The samples of a texel, one after the other.
 struct TexelGroup {
@@ -88,7 +88,8 @@ public:
     }
 
     /// Adds light that leaves media, and counts the samples there in `samples`.
-    void add_media(std::span<const TexelGroup> groups, std::span<int> samples, TexelLight& light) const {
+    void add_media(std::span<const TexelGroup> groups, std::span<int> samples, TexelLight& light,
+                   const Progress& progress) const {
         struct Point {
             std::size_t group;
             int samples = 0;
@@ -113,6 +114,7 @@ public:
                 std::vector<glm::dvec3> positions;
                 for (const Point& point : points)
                     positions.push_back(point.sum / static_cast<double>(point.samples));
+                progress.update(static_cast<double>(body) / static_cast<double>(bodies.size()));
                 const MediaLight::Exit exit = task_.media->exit(body, positions);
                 for (std::size_t i = 0; i < points.size(); ++i) {
                     const auto count = static_cast<float>(points[i].samples);
@@ -389,17 +391,18 @@ TexelLight trace_texels(const TexelTask& task, const Atlas& atlas, std::span<con
     light.traced.resize(atlas.texels());
     light.measured = groups.size();
     TexelTracer texels(task);
+    const double share_of_rays = task.media ? 0.7 : 1;
     std::vector<int> traced(groups.size()), media(groups.size());
     for (std::size_t first = 0; first < groups.size(); first += texels.texels_at_once()) {
         const std::size_t count = std::min(texels.texels_at_once(), groups.size() - first);
         const auto share = [&](std::size_t done) {
-            return static_cast<double>(done) / static_cast<double>(groups.size());
+            return share_of_rays * static_cast<double>(done) / static_cast<double>(groups.size());
         };
         texels.trace(std::span(groups).subspan(first, count), std::span(traced).subspan(first, count), light,
                      progress.range(share(first), share(first + count)));
     }
     if (task.media)
-        texels.add_media(groups, media, light);
+        texels.add_media(groups, media, light, progress.range(share_of_rays, 1));
     for (std::size_t g = 0; g < groups.size(); ++g)
         texels.divide(groups[g].texel, traced[g], media[g], light);
     return light;
