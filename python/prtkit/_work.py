@@ -247,11 +247,15 @@ def sweep(
 ) -> List[Dict[str, Any]]:
     """Measure error against bytes and shader cost of several compression methods; takes minutes.
 
-    Returns records with the keys "method", "setting", "bytes", "lit_rms" (a fraction) and others, one per point:
-    `pandas.DataFrame(prtkit.sweep(model))`.
+    Returns records, one per point: `pandas.DataFrame(prtkit.sweep(model))`. Keys: "table" (equal_bytes or
+    equal_shader_operations), "method", "setting", "bytes_per_vertex", "shader_operations", "lit_rms" and "relative_l2"
+    (fractions), "seconds" and others.
     """
     report = _report(baked, None, lights, {"threads": threads, "measures": ["sweep"]}, progress)
-    return report["sweep"]
+    tables: Dict[str, Any] = report["sweep"]
+    return [
+        {"table": name, **row} for name, rows in tables.items() if isinstance(rows, list) for row in rows
+    ]
 
 
 def relight(

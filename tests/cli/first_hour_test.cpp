@@ -104,11 +104,11 @@ TEST_F(FirstHour, EveryWritingCommandChecksItsOutputs) {
 }
 
 TEST_F(FirstHour, OtherFormatsSuggestGltfExport) {
-    folder.file("m.obj", "v 0 0 0\nf 1 1 1\n");
-    folder.file("m.ply", "ply\nformat ascii 1.0\n");
+    folder.file("m.dae", "<COLLADA>");
+    folder.file("m.stl", "solid\n");
     folder.file("m.fbx", "Kaydara FBX Binary  ");
     folder.file("m.glb", "this is no model");
-    for (const char* name : {"m.obj", "m.ply", "m.fbx", "m.glb"})
+    for (const char* name : {"m.dae", "m.stl", "m.fbx", "m.glb"})
         expect_line({"bake", at(name), "-o", at("o.glb")}, 1, "export the scene as glTF 2.0 (.glb)");
     folder.file("broken.gltf", "{\n  \"asset\": {\"version\": \"2.0\"},\n  \"nodes\": [,]\n}");
     expect_line({"bake", at("broken.gltf"), "-o", at("o.glb")}, 1, "line 3");

@@ -64,6 +64,22 @@ void write_light_seeds(const Path& folder) {
     }
 }
 
+/// Seeds for mesh_target.cpp, whose first byte chooses the format.
+void write_mesh_seeds(const Path& folder) {
+    const std::string vertices = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                                 "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+    const std::string faces = "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+    write(folder / "ascii.ply", std::string(1, '\0') + "ply\nformat ascii 1.0\n" + vertices + faces +
+                                    "0 0 0 9 9 9\n1 0 0 9 9 9\n0 1 0 9 9 9\n3 0 1 2\n");
+    std::string binary = std::string(1, '\0') + "ply\nformat binary_little_endian 1.0\n" + vertices + faces;
+    binary.append(3 * 15, '\x3f').append("\x03", 1);
+    for (const char corner : {'\0', '\1', '\2'})
+        binary.append(1, corner).append(3, '\0');
+    write(folder / "binary.ply", binary);
+    write(folder / "mesh.obj", "\x01v 0 0 0\nv 1 0 0 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\nusemtl a\n"
+                               "f 1/1/1 2/1/1 -2/-1/-1 -1/1/1\nf 1//1 2//1 3//1\nf 1 2 3\n");
+}
+
 void write_round_trip_seeds(const Path& folder) {
     std::string values(256, '\0');
     std::iota(values.begin(), values.end(), '\x01');
@@ -102,6 +118,7 @@ void write_word_seeds(const Path& folder) {
 void write_other_seeds(const Path& folder) {
     write_view_seeds(folder / "meshopt");
     write_light_seeds(folder / "light");
+    write_mesh_seeds(folder / "mesh");
     write_round_trip_seeds(folder / "round_trip");
     write_word_seeds(folder / "words");
 }

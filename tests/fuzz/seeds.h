@@ -14,7 +14,7 @@ void write_model_seeds(const Path& folder);
 /// `exr`, `hdr`, `pictures`: lat-long maps of every kind.
 void write_environment_seeds(const Path& folder);
 
-/// `meshopt`, `light`, `round_trip`, `words`: inputs of the other targets.
+/// `mesh`, `meshopt`, `light`, `round_trip`, `words`: inputs of the other targets.
 void write_other_seeds(const Path& folder);
 
 } // namespace prt::fuzz

@@ -11,7 +11,7 @@
 
 namespace {
 
-constexpr const char* kCorpora[] = {"models",  "exr",   "hdr",        "pictures",
+constexpr const char* kCorpora[] = {"models",  "exr",   "hdr",        "pictures", "mesh",
                                     "meshopt", "light", "round_trip", "words"};
 
 void write_list(const prt::fuzz::Path& corpus) {

@@ -49,7 +49,7 @@ def work(seed):
 def test_forked_workers_bake():
     expected = work(3)  # the parent has used its threads before
     prtkit.compute_prt(*table_scene(), n=20)
-    with multiprocessing.get_context("fork").Pool(8) as pool:
+    with multiprocessing.get_context("fork").Pool(32) as pool:
         results = pool.map(work, [3] * 32)
     for result in results:
         np.testing.assert_array_equal(result, expected)
