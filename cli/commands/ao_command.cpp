@@ -349,7 +349,9 @@ void add_ao(CLI::App& app, Session& session) {
     CLI::App* command = app.add_subcommand("ao", "Bake ambient occlusion and bent normals for any engine");
     auto& a =
         arguments_for<AoArguments>(command, [&session](const AoArguments& given) { run(given, session); });
-    command->add_option("scene", a.scene, "scene to bake: glTF 2.0, .gltf or .glb")->required()->check(named);
+    command->add_option("scene", a.scene, "scene to bake: glTF 2.0 (.gltf, .glb), or a mesh, .obj or .ply")
+        ->required()
+        ->check(named);
     add_output(command, a.output, "write the scene with its occlusion to this file, .glb");
     add_outputs(command, a);
     add_falloff(command, a.options.tracer.falloff);

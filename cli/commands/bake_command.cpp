@@ -269,7 +269,9 @@ void add_bake(CLI::App& app, Session& session) {
         app.add_subcommand("bake", "Bake transfer of a glTF scene at vertices, texels and probes");
     auto& a = arguments_for<BakeArguments>(command,
                                            [&session](const BakeArguments& given) { run(given, session); });
-    command->add_option("scene", a.scene, "scene to bake: glTF 2.0, .gltf or .glb")->required()->check(named);
+    command->add_option("scene", a.scene, "scene to bake: glTF 2.0 (.gltf, .glb), or a mesh, .obj or .ply")
+        ->required()
+        ->check(named);
     add_output(command, a.output, "write the scene with its transfer to this file, .glb");
     command
         ->add_option("--order", a.options.order,

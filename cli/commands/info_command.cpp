@@ -269,7 +269,8 @@ void add_info(CLI::App& app, Session& session) {
     CLI::App* command = app.add_subcommand("info", "List the contents of a glTF file");
     auto& a = arguments_for<InfoArguments>(command,
                                            [&session](const InfoArguments& given) { run(given, session); });
-    command->add_option("file", a.file, "file to describe: any glTF 2.0 with triangles, .gltf or .glb")
+    command
+        ->add_option("file", a.file, "file to describe: glTF 2.0 with triangles (.gltf, .glb), .obj or .ply")
         ->required()
         ->check(named);
     command->add_flag(

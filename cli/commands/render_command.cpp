@@ -138,7 +138,8 @@ void add_render(CLI::App& app, Session& session) {
         ->add_option(
             "model", a.model.path,
             "model to draw: a scene, or output of prt bake, compress, make or lobes\n"
-            "                              .gltf or .glb; skinned meshes have the pose of the file\n"
+            "                              .gltf, .glb, .obj or .ply; skinned meshes have the pose of the "
+            "file\n"
             "                              a scene without transfer: sky without shadows, suns with\n"
             "                              shadows, no lamps; with --path-trace: all light")
         ->required()
