@@ -1,30 +1,24 @@
-// Writes mesh arrays as glTF, and reads OBJ with tinyobjloader.
+// Writes mesh arrays as glTF.
 
 #include "bake/gltf/mesh_file.h"
 
+#include "bake/gltf/obj_file.h"
 #include "bake/gltf/ply_file.h"
 #include "prt/core/error.h"
 #include "prt/load/scene.h"
 #include "runtime/load/glb.h"
 #include "runtime/load/gltf_model.h"
 #include "runtime/load/json.h"
-#include "runtime/load/srgb.h"
-
-#define TINYOBJLOADER_IMPLEMENTATION // with doubles, so that coordinates of maps keep their precision
-#define TINYOBJLOADER_USE_DOUBLE
-#include <tiny_obj_loader.h>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <limits>
-#include <map>
 #include <utility>
 
 namespace prt {
@@ -66,6 +60,23 @@ void check_length(std::size_t length, std::size_t vertices, const char* what) {
                     " vertices");
 }
 
+template <class Vector>
+void check_finite(const std::vector<Vector>& values, float limit, const char* what) {
+    for (std::size_t v = 0; v < values.size(); ++v)
+        for (int axis = 0; axis < Vector::length(); ++axis)
+            if (!(std::abs(values[v][axis]) <= limit))
+                throw Error(std::string("the ") + what + " of vertex " + std::to_string(v) +
+                            " is not finite or is too large");
+}
+
+std::string suffix(const std::filesystem::path& path) {
+    std::string text = path.extension().string();
+    std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+}
+
+} // namespace
+
 void check_mesh(const MeshArrays& mesh) {
     const std::size_t vertices = mesh.positions.size();
     if (vertices == 0 || mesh.triangles.empty())
@@ -80,6 +91,9 @@ void check_mesh(const MeshArrays& mesh) {
             if (!(std::abs(mesh.positions[v][axis]) <= kFarthestVertex))
                 throw Error("the position of vertex " + std::to_string(v) +
                             " is not finite or exceeds 1e9 metres");
+    check_finite(mesh.normals, 1e30f, "normal");
+    check_finite(mesh.colors, 1e6f, "color");
+    check_finite(mesh.texcoords, 1e6f, "texture coordinate");
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
         for (int corner = 0; corner < 3; ++corner)
             if (mesh.triangles[t][corner] >= vertices)
@@ -87,71 +101,6 @@ void check_mesh(const MeshArrays& mesh) {
                             std::to_string(mesh.triangles[t][corner]) + ", but there are only " +
                             std::to_string(vertices));
 }
-
-/// Builds a mesh of the corners of an OBJ file. Corners with equal indices are one vertex.
-class ObjMesh {
-public:
-    explicit ObjMesh(const tinyobj::ObjReader& reader) : attributes_(reader.GetAttrib()) {
-        const std::vector<tinyobj::shape_t>& shapes = reader.GetShapes();
-        normals_ = texcoords_ = true;
-        for (const tinyobj::shape_t& shape : shapes)
-            for (const tinyobj::index_t& corner : shape.mesh.indices) {
-                normals_ = normals_ && corner.normal_index >= 0;
-                texcoords_ = texcoords_ && corner.texcoord_index >= 0;
-            }
-        if (!normals_ && !texcoords_) // all vertices of the file, in their order
-            for (std::size_t v = 0; v < attributes_.vertices.size() / 3; ++v)
-                vertex({static_cast<int>(v), -1, -1});
-        for (const tinyobj::shape_t& shape : shapes)
-            for (std::size_t i = 0; i + 2 < shape.mesh.indices.size(); i += 3)
-                mesh.triangles.emplace_back(vertex(shape.mesh.indices[i]), vertex(shape.mesh.indices[i + 1]),
-                                            vertex(shape.mesh.indices[i + 2]));
-    }
-    MeshArrays mesh;
-
-private:
-    std::uint32_t vertex(const tinyobj::index_t& corner) {
-        const std::array<int, 3> key = {corner.vertex_index, normals_ ? corner.normal_index : -1,
-                                        texcoords_ ? corner.texcoord_index : -1};
-        const auto [found, is_new] =
-            index_.try_emplace(key, static_cast<std::uint32_t>(mesh.positions.size()));
-        if (!is_new)
-            return found->second;
-        const auto v = 3 * static_cast<std::size_t>(key[0]), n = 3 * static_cast<std::size_t>(key[1]),
-                   t = 2 * static_cast<std::size_t>(key[2]);
-        const auto& a = attributes_;
-        mesh.positions.emplace_back(a.vertices.at(v), a.vertices.at(v + 1), a.vertices.at(v + 2));
-        if (a.colors.size() == a.vertices.size())
-            mesh.colors.emplace_back(srgb_to_linear(a.colors[v]), srgb_to_linear(a.colors[v + 1]),
-                                     srgb_to_linear(a.colors[v + 2]));
-        if (normals_)
-            mesh.normals.emplace_back(a.normals.at(n), a.normals.at(n + 1), a.normals.at(n + 2));
-        if (texcoords_)
-            mesh.texcoords.emplace_back(a.texcoords.at(t), 1 - a.texcoords.at(t + 1));
-        return found->second;
-    }
-    const tinyobj::attrib_t& attributes_;
-    bool normals_ = false, texcoords_ = false;
-    std::map<std::array<int, 3>, std::uint32_t> index_;
-};
-
-MeshArrays read_obj(std::span<const std::byte> file) {
-    tinyobj::ObjReaderConfig how;
-    how.triangulate = true;
-    how.vertex_color = false; // no colors where the file has none
-    tinyobj::ObjReader reader;
-    if (!reader.ParseFromString({reinterpret_cast<const char*>(file.data()), file.size()}, "", how))
-        throw Error("cannot be read: " + one_line(reader.Error()));
-    return std::move(ObjMesh(reader).mesh);
-}
-
-std::string suffix(const std::filesystem::path& path) {
-    std::string text = path.extension().string();
-    std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
-    return text;
-}
-
-} // namespace
 
 std::vector<std::byte> mesh_glb(const MeshArrays& mesh, const std::string& name) {
     check_mesh(mesh);
@@ -203,6 +152,7 @@ MeshArrays read_mesh_file(std::span<const std::byte> file, const std::filesystem
     MeshArrays mesh = suffix(path) == ".ply" ? read_ply(file) : read_obj(file);
     if (!mesh.texcoords.empty())
         notices.emplace_back("its materials and textures are not read; export glTF to bake their colors");
+    check_mesh(mesh);
     mesh.double_sided = true; // these formats do not say which sides are visible
     return mesh;
 }

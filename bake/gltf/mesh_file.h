@@ -24,10 +24,13 @@ struct MeshArrays {
     bool double_sided = false;         ///< whether both sides are visible and reflect light
 };
 
+/// Throws `Error` if there are no vertices or triangles, if a number is not finite or a position exceeds
+/// kFarthestVertex, if a triangle refers to a vertex that does not exist, and if an array has another length.
+void check_mesh(const MeshArrays& mesh);
+
 /// Returns a .glb file with one node that draws the mesh. Positions are stored as floats relative to the
 /// middle of their box, which is the translation of the node, so that a mesh far from the origin keeps its
-/// precision. Throws `Error` if there are no vertices or triangles, if a position is not finite, if a
-/// triangle refers to a vertex that does not exist, and if an array has another length.
+/// precision. Throws the errors of `check_mesh`.
 std::vector<std::byte> mesh_glb(const MeshArrays& mesh, const std::string& name);
 
 /// Returns whether the suffix is that of a mesh file, .obj or .ply.

@@ -3,13 +3,16 @@
 
 #include "bake/gltf/ply_file.h"
 
+#include "bake/gltf/mesh_text.h"
 #include "prt/core/error.h"
+#include "runtime/core/support/printable.h"
 #include "runtime/load/srgb.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <optional>
@@ -52,13 +55,13 @@ NumberType type_of(std::string_view name) {
     for (const auto& [known, type] : kTypes)
         if (name == known)
             return type;
-    throw Error("its header has the unknown type '" + std::string(name.substr(0, 40)) + "'");
+    throw Error("its header has the unknown type '" + printable(std::string(name.substr(0, 40))) + "'");
 }
 
 /// Reads the header line by line.
 class Header {
 public:
-    explicit Header(std::string_view text) : rest_(text) {
+    explicit Header(std::string_view text) : rest_(without_mark(text)) {
         if (words(line()) != std::vector<std::string_view>{"ply"})
             throw Error("is not PLY: it does not begin with a line 'ply'");
         for (;;) {
@@ -88,23 +91,19 @@ private:
     }
     static std::vector<std::string_view> words(std::string_view line) {
         std::vector<std::string_view> all;
-        for (std::size_t at = 0; at < line.size();) {
-            const std::size_t begin = line.find_first_not_of(" \t\r", at);
-            if (begin == std::string_view::npos)
-                break;
-            at = std::min(line.find_first_of(" \t\r", begin), line.size());
-            all.push_back(line.substr(begin, at - begin));
-        }
+        for (std::string_view word = next_word(line); !word.empty(); word = next_word(line))
+            all.push_back(word);
         return all;
     }
     void add(const std::vector<std::string_view>& w) {
         if (w[0] == "format" && w.size() >= 2) {
             if (w[1] != "ascii" && w[1] != "binary_little_endian" && w[1] != "binary_big_endian")
-                throw Error("has the unknown format '" + std::string(w[1].substr(0, 40)) + "'");
+                throw Error("has the unknown format '" + printable(std::string(w[1].substr(0, 40))) + "'");
             form = w[1] == "ascii" ? Form::ascii : w[1] == "binary_big_endian" ? Form::big : Form::little;
         } else if (w[0] == "element" && w.size() == 3) {
             Element& element = elements.emplace_back(Element{std::string(w[1]), 0, {}});
-            if (std::from_chars(w[2].data(), w[2].data() + w[2].size(), element.count).ec != std::errc())
+            const auto [end, error] = std::from_chars(w[2].data(), w[2].data() + w[2].size(), element.count);
+            if (error != std::errc() || end != w[2].data() + w[2].size())
                 throw Error("its header has no number of elements '" + element.name + "'");
         } else if (w[0] == "property" && !elements.empty() && w.size() == 3) {
             elements.back().properties.push_back({std::string(w[2]), type_of(w[1]), std::nullopt});
@@ -112,7 +111,7 @@ private:
             elements.back().properties.push_back({std::string(w[4]), type_of(w[3]), type_of(w[2])});
         } else {
             throw Error("its header has an unknown line that begins with '" +
-                        std::string(w[0].substr(0, 40)) + "'");
+                        printable(std::string(w[0].substr(0, 40))) + "'");
         }
     }
     std::string_view rest_;
@@ -140,15 +139,9 @@ private:
         const std::size_t begin = data_.find_first_not_of(" \t\r\n");
         if (begin == std::string_view::npos)
             end();
-        data_.remove_prefix(begin);
-        double value = 0;
-        const auto [last, error] = std::from_chars(data_.data(), data_.data() + data_.size(), value);
-        if (error != std::errc())
-            throw Error(
-                "has '" +
-                std::string(data_.substr(0, std::min<std::size_t>(data_.find_first_of(" \t\r\n"), 40))) +
-                "' where a number should be");
-        data_.remove_prefix(static_cast<std::size_t>(last - data_.data()));
+        const std::size_t last = std::min(data_.find_first_of(" \t\r\n", begin), data_.size());
+        const double value = number_of(data_.substr(begin, last - begin));
+        data_.remove_prefix(last);
         return value;
     }
     double binary(const NumberType& type) {
@@ -195,6 +188,18 @@ std::optional<std::size_t> slot_of(std::string_view name) {
     return std::nullopt;
 }
 
+/// Returns a whole number that is not negative. Throws `Error` for another one.
+std::uint32_t whole(double value, const char* what) {
+    if (!(value >= 0 && value < 4294967295.0 && value == std::floor(value)))
+        throw Error(std::string(what) + " is not a whole number from 0 to 2^32 - 2");
+    return static_cast<std::uint32_t>(value);
+}
+
+/// Returns the number of values of a property.
+std::uint32_t count_of(const Property& p, Numbers& numbers) {
+    return p.count ? whole(numbers.next(*p.count), "the length of a list") : 1;
+}
+
 void read_vertices(const Element& element, Numbers& numbers, MeshArrays& mesh) {
     std::array<bool, kSlots> has{};
     std::vector<std::optional<std::size_t>> slots;
@@ -214,7 +219,7 @@ void read_vertices(const Element& element, Numbers& numbers, MeshArrays& mesh) {
         std::array<double, kSlots> values{};
         for (std::size_t i = 0; i < slots.size(); ++i) {
             const Property& p = element.properties[i];
-            for (double left = p.count ? numbers.next(*p.count) : 1; left >= 1; --left) {
+            for (std::uint32_t left = count_of(p, numbers); left > 0; --left) {
                 const double value = numbers.next(p.type);
                 if (slots[i])
                     values[*slots[i]] =
@@ -232,37 +237,43 @@ void read_vertices(const Element& element, Numbers& numbers, MeshArrays& mesh) {
     }
 }
 
-/// Returns the index of a vertex. Throws `Error` for a number that is none.
-std::uint32_t index_of(double value) {
-    if (!(value >= 0 && value < 4294967295.0))
-        throw Error("a face refers to a vertex that does not exist");
-    return static_cast<std::uint32_t>(value);
-}
+/// Reads polygons: their corners, one after another, and their numbers of corners.
+struct Polygons {
+    std::vector<std::uint32_t> corners, counts;
+};
 
-void read_faces(const Element& element, Numbers& numbers, MeshArrays& mesh) {
+void read_faces(const Element& element, Numbers& numbers, Polygons& polygons) {
     for (std::size_t f = 0; f < element.count; ++f)
         for (const Property& p : element.properties) {
             const bool corners = p.count && (p.name == "vertex_indices" || p.name == "vertex_index");
-            std::uint32_t first = 0, last = 0;
-            const double count = p.count ? numbers.next(*p.count) : 1;
-            for (double i = 0; i < count; ++i) {
+            const std::uint32_t count = count_of(p, numbers);
+            for (std::uint32_t i = 0; i < count; ++i) {
                 const double value = numbers.next(p.type);
-                if (!corners)
-                    continue;
-                const std::uint32_t index = index_of(value);
-                if (i == 0)
-                    first = index;
-                else if (i >= 2)
-                    mesh.triangles.emplace_back(first, last, index);
-                last = index;
+                if (corners)
+                    polygons.corners.push_back(whole(value, "the index of a vertex"));
             }
+            if (corners)
+                polygons.counts.push_back(count);
         }
+}
+
+void cut(const Polygons& polygons, MeshArrays& mesh) {
+    for (const std::uint32_t corner : polygons.corners)
+        if (corner >= mesh.positions.size())
+            throw Error("a face refers to vertex " + std::to_string(corner) + ", but there are only " +
+                        std::to_string(mesh.positions.size()));
+    std::size_t first = 0;
+    for (const std::uint32_t count : polygons.counts) {
+        if (count >= 3)
+            append_polygon(std::span(polygons.corners).subspan(first, count), mesh.positions, mesh.triangles);
+        first += count;
+    }
 }
 
 void skip(const Element& element, Numbers& numbers) {
     for (std::size_t e = 0; e < element.count; ++e)
         for (const Property& p : element.properties)
-            for (double left = p.count ? numbers.next(*p.count) : 1; left >= 1; --left)
+            for (std::uint32_t left = count_of(p, numbers); left > 0; --left)
                 numbers.next(p.type);
 }
 
@@ -272,15 +283,17 @@ MeshArrays read_ply(std::span<const std::byte> file) {
     const Header header({reinterpret_cast<const char*>(file.data()), file.size()});
     Numbers numbers(header.rest(), *header.form);
     MeshArrays mesh;
+    Polygons polygons;
     for (const Element& element : header.elements) {
         numbers.check(element);
         if (element.name == "vertex")
             read_vertices(element, numbers, mesh);
         else if (element.name == "face")
-            read_faces(element, numbers, mesh);
+            read_faces(element, numbers, polygons);
         else
             skip(element, numbers);
     }
+    cut(polygons, mesh);
     if (!mesh.positions.empty() && mesh.triangles.empty())
         throw Error("has no faces: it is a cloud of points, or has triangle strips, which are not read");
     return mesh;

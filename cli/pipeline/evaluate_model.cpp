@@ -66,6 +66,8 @@ BudgetRequest budget_request(const EvaluateRequest& a) {
 } // namespace
 
 Report evaluate_model(EvaluateRequest a, const Host& host) {
+    if (a.rotations < 1 || a.rotations > 64)
+        throw Error("the number of rotations must be in 1..64");
     a.reading.leave_out_lobes = true; // prt lobes measures them
     SceneFile baked = load_scene_file(a.baked, a.reading);
     if (!baked.baked)

@@ -418,9 +418,27 @@ void light_on_gpu(const RenderRequest& a, const SceneFile& model, const Lighting
     picture.in_shader.lightmaps.lighting = &lighting;
 }
 
+/// Throws `Error` for sizes, angles and numbers out of range, which the options of the program also reject.
+void check_ranges(const RenderRequest& a) {
+    const View& v = a.view;
+    if (v.width < 1 || v.height < 1 || v.width > 16384 || v.height > 16384)
+        throw Error("the picture must have 1 to 16384 pixels on each side");
+    if (v.samples < 1 || v.samples > 16)
+        throw Error("the number of samples along each axis of a pixel must be in 1..16");
+    if (!(v.field_of_view_degrees >= 1 && v.field_of_view_degrees <= 170))
+        throw Error("the field of view must be in 1..170 degrees");
+    if (!(std::abs(a.look.exposure.stops) <= 100))
+        throw Error("the exposure must be in -100..100 stops");
+    if (a.look.paths < 0 || a.look.paths == 1 || a.look.paths > 1 << 20)
+        throw Error("the number of paths per pixel must be 0, or 2 to 1048576");
+    if (!(a.lights.lamp_scale > 0 && a.lights.lamp_scale <= 1e9))
+        throw Error("the factor on lights must be above 0 and at most 1e9");
+}
+
 } // namespace
 
 RenderedPicture render_model(const RenderRequest& a, const Host& host) {
+    check_ranges(a);
     const SceneFile model = load_model(a);
     const std::vector<bool> solid = solid_materials(model.scene);
     note_media(a, solid);

@@ -9,8 +9,10 @@ def as_array(value, what):
     Accepts arrays, nested lists, and objects with `__array_interface__`, `__array__` or `__dlpack__`
     (torch, jax, cupy on the host). Raises TypeError for iterators and for what has no numbers.
     """
+    if isinstance(value, np.ma.MaskedArray) and np.ma.is_masked(value):
+        raise TypeError(f"{what} must not have masked values")
     if isinstance(value, np.ndarray):
-        return value
+        return np.asarray(value)
     if hasattr(value, "detach") and hasattr(value, "cpu"):  # torch: no gradient, host memory
         value = value.detach().cpu()
     if hasattr(value, "__dlpack__") and not hasattr(value, "__array_interface__"):

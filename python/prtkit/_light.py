@@ -38,7 +38,7 @@ class Sun:
         return _prtkit.sun_light(self.towards, self.irradiance, self.half_angle, order)
 
 
-@dataclasses.dataclass(frozen=True)
+@dataclasses.dataclass(frozen=True, eq=False)
 class Light:
     """Distant light: SH coefficients of a sky, and suns that are separate from it.
 
@@ -124,12 +124,27 @@ def separate_suns(
 
 
 def as_light(light, order, threads=0):
-    """Return a path, coefficients or Light as `Light` of at least `order` bands."""
+    """Return a path, coefficients or Light as a checked `Light`; an image gets `order` bands."""
     if isinstance(light, Light):
-        return light
+        return _checked(light)
     if isinstance(light, (str, os.PathLike)):
         return separate_suns(light, order=order, threads=threads)
-    return Light(np.asarray(real_array(light, "light"), dtype=np.float32))
+    return _checked(Light(np.asarray(real_array(light, "light"), dtype=np.float32)))
+
+
+def _checked(light):
+    """Return a light with valid coefficients. Raises ValueError."""
+    sky = np.asarray(light.sky)
+    if sky.ndim != 2 or sky.shape[1] != 3:
+        raise ValueError(f"the coefficients of a light must have the shape (order², 3), not {sky.shape}")
+    order_of(len(sky))
+    if not np.isfinite(sky).all():
+        raise ValueError("a coefficient of the light is not finite")
+    for sun in light.suns:
+        numbers = [*sun.towards, *sun.irradiance, sun.half_angle]
+        if len(numbers) != 7 or not np.isfinite(numbers).all() or min(sun.irradiance) < 0:
+            raise ValueError("a sun must have a finite direction, irradiance of 0 or more, and a half angle")
+    return light
 
 
 def _text(light):
@@ -153,6 +168,8 @@ def _text(light):
 @contextlib.contextmanager
 def light_files(lights):
     """Give the paths of lights: light in memory is written to temporary light files."""
+    if isinstance(lights, (str, os.PathLike)):
+        lights = [lights]
     with tempfile.TemporaryDirectory(prefix="prtkit") as folder:
         paths = []
         for number, light in enumerate(lights):

@@ -20,7 +20,7 @@ from ._types import ArrayLike, PathLike, Progress
 _log = logging.getLogger("prtkit")
 
 
-@dataclasses.dataclass(frozen=True)
+@dataclasses.dataclass(frozen=True, eq=False)
 class Transfer:
     """Transfer of the vertices of a mesh, with the device that computed it.
 
@@ -46,9 +46,12 @@ def load_mesh(path: PathLike, *, join: bool = True) -> Tuple[NDArray[np.float64]
     normals differ.
     """
     vertices, faces = _prtkit.load_mesh(os.fspath(path))
-    if join and len(vertices):
-        vertices, index = np.unique(vertices, axis=0, return_inverse=True)
-        faces = index.astype(np.int64)[faces]
+    if join:
+        rows = np.ascontiguousarray(vertices + 0.0).view(np.dtype((np.void, 24))).ravel()  # -0 becomes 0
+        _, first, index = np.unique(rows, return_index=True, return_inverse=True)
+        order = np.argsort(first)  # vertices stay in the order of the file
+        vertices = vertices[first[order]]
+        faces = np.argsort(order).astype(np.int64)[index][faces]
     return vertices, faces
 
 
@@ -59,7 +62,12 @@ def _scale(convention, order):
     """
     if convention == "pifu":
         return math.pi * _factors("pifu", order)
-    return 1 / _factors(convention, order)
+    factors = _factors(convention, order)
+    if np.any(factors == 0):
+        raise ValueError(
+            f"'{convention}' stores irradiance, which has no light of band 3; use order=2 or less"
+        )
+    return 1 / factors
 
 
 def transfer_of_mesh(
@@ -82,14 +90,16 @@ def transfer_of_mesh(
     """Like `compute_prt`, with the name of the device that traced."""
     vertices, faces = real_array(vertices, "vertices"), as_array(faces, "faces")
     normals = None if normals is None else real_array(normals, "normals")
-    bands = order + 1
-    if not isinstance(order, (int, np.integer)) or not 0 <= order <= 9:
+    if not isinstance(order, (int, np.integer)) or isinstance(order, bool) or not 0 <= order <= 9:
         raise ValueError(f"order is the highest band, 0 to 9, not {order}")
     if int(n) != n or n < 1 or n > 4096:
         raise ValueError(f"n must be a whole number in 1..4096, not {n}")
+    if bounces != math.inf and (bounces != int(bounces) or not 0 <= bounces <= 10000):
+        raise ValueError(f"bounces must be a whole number in 0..10000 or math.inf, not {bounces}")
+    bands = order + 1
     if directions is not None:
-        if bounces:
-            raise ValueError("directions cannot be combined with bounces")
+        if bounces or denoise or backend not in ("auto", "cpu"):
+            raise ValueError("directions cannot be combined with bounces, denoise and backend='gpu'")
         values = _by_directions(vertices, faces, normals, directions, bands, threads, progress)
         return Transfer(values / math.pi * _scale(convention, bands), "CPU")
     options = {
@@ -159,7 +169,8 @@ def compute_prt(
 
 def _by_directions(vertices, faces, normals, directions, bands, threads, progress):
     extent = np.ptp(vertices.reshape(-1, 3), axis=0) if vertices.ndim == 2 and len(vertices) else np.ones(3)
-    offset = 1e-3 * float(np.min(extent))  # PIFu's start of rays
+    # PIFu's start of rays; not 0 for a flat mesh
+    offset = float(max(1e-3 * np.min(extent), 1e-6 * np.max(extent)))
     return _prtkit.transfer_by_directions(
         vertices, faces, normals, real_array(directions, "directions"), bands, offset, threads, progress
     )

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _prtkit
+from ._arrays import real_array
 from ._light import Light, as_light, light_files
 from ._model import Model, as_model, log_notices
 from ._types import ArrayLike, LightLike, ModelLike, PathLike, Progress
@@ -19,6 +20,17 @@ from ._types import ArrayLike, LightLike, ModelLike, PathLike, Progress
 
 def _given(options):
     return {name: value for name, value in options.items() if value is not None}
+
+
+def _strengths(lamps):
+    """Return {name: [r, g, b]} of finite numbers of 0 or more. Raises ValueError."""
+    strengths = {}
+    for name, value in dict(lamps or {}).items():
+        color = np.broadcast_to(np.asarray(real_array(value, f"the strength of {name}"), np.float64), 3)
+        if not np.isfinite(color).all() or color.min() < 0 or color.max() > 1e9:
+            raise ValueError(f"the strength of {name} must be a number, or three, from 0 to 1e9, not {value}")
+        strengths[str(name)] = color.tolist()
+    return strengths
 
 
 def _finished(model):
@@ -148,8 +160,8 @@ def compress(
 ) -> Model:
     """Compress a bake by clustered PCA, as `prt compress`, and return the compressed model.
 
-    preset: u32 (default), u64, u32x4 or u64x9. Instead of a preset a goal: max_error, relative L2 of the lit
-    surface (0.03: 3 %), bytes_per_vertex with bases, shader_operations; or sizes: clusters, components, bits,
+    preset: u32 (default), u64, u32x4 or u64x9. Instead of a preset a goal, which takes several times as long:
+    max_error, limit of "lit_rms" of the figures (0.03: 3 %) and of contrast errors, bytes_per_vertex with bases, shader_operations; or sizes: clusters, components, bits,
     float_weights. max_jump: of the contrast error between clusters. predictors: auto, none, normal or position.
     lights: light that the error is minimised for, paths or lights; without it light_family: outdoor, indoor, day,
     natural or plain. best_effort: return the closest result if no result meets the goal. reorder: sort vertices by
@@ -253,9 +265,7 @@ def sweep(
     """
     report = _report(baked, None, lights, {"threads": threads, "measures": ["sweep"]}, progress)
     tables: Dict[str, Any] = report["sweep"]
-    return [
-        {"table": name, **row} for name, rows in tables.items() if isinstance(rows, list) for row in rows
-    ]
+    return [{"table": name, **row} for name, rows in tables.items() if isinstance(rows, list) for row in rows]
 
 
 def relight(
@@ -277,10 +287,14 @@ def relight(
     lit = as_model(model)
     order = max(lit.order, 1)
     sky = Light(np.zeros((order**2, 3), np.float32)) if light is None else as_light(light, order, threads)
+    if not 1 <= rays <= 1 << 24:
+        raise ValueError(f"rays must be in 1..2^24, not {rays}")
+    coefficients = np.zeros((max(order, sky.order) ** 2, 3), np.float32)  # bands that it lacks are 0
+    coefficients[: len(sky.sky)] = sky.sky
     suns = [
         (tuple(map(float, s.towards)), tuple(map(float, s.irradiance)), float(s.half_angle)) for s in sky.suns
     ]
-    return _prtkit.relight(lit, sky.sky, suns, dict(lamps or {}), rays, threads, progress)
+    return _prtkit.relight(lit, coefficients, suns, _strengths(lamps), rays, threads, progress)
 
 
 def render(
@@ -306,7 +320,7 @@ def render(
     threads: int = 0,
     progress: Progress = None,
 ) -> NDArray[Any]:
-    """Draw a picture, as `prt render`.
+    """Draw a picture, as `prt render`. Ctrl-C ends path tracing within a second, other pictures at their end.
 
     Returns display values [height, width, 3], uint8, sRGB; with linear=True radiance, float32, linear Rec. 709.
     light: path, coefficients or Light. camera, look_at: points in metres; None: the whole scene is visible.
@@ -339,7 +353,7 @@ def render(
         if lamps is not None:
             options["lamps"] = os.path.join(folder, "lamps.json")
             with open(options["lamps"], "w", encoding="utf-8") as file:
-                json.dump(dict(lamps), file)
+                json.dump(_strengths(lamps), file)
         reference = None if baked is None else as_model(baked)
         picture, _, notices = _prtkit.render(as_model(model), reference, options, progress)
     log_notices(notices)

@@ -78,6 +78,10 @@ Mesh mesh_of(const Doubles& vertices, const py::array& faces, const std::optiona
         if (mesh.albedo.size() != mesh.positions.size())
             throw Error("there are " + std::to_string(mesh.albedo.size()) + " albedos, but " +
                         std::to_string(mesh.positions.size()) + " vertices");
+        for (std::size_t v = 0; v < mesh.albedo.size(); ++v)
+            for (int c = 0; c < 3; ++c)
+                if (!(mesh.albedo[v][c] >= 0 && mesh.albedo[v][c] <= 1))
+                    throw Error("albedo " + std::to_string(v) + " is not in 0..1");
     }
     return mesh;
 }

@@ -56,6 +56,10 @@ std::shared_ptr<Model> from_arrays(const Doubles& vertices, const py::array& fac
         for (py::ssize_t v = 0; v < texcoords->shape(0); ++v)
             mesh.texcoords.emplace_back(texcoords->at(v, 0), texcoords->at(v, 1));
     }
+    for (std::size_t v = 0; v < mesh.colors.size(); ++v)
+        for (int c = 0; c < 3; ++c)
+            if (!(mesh.colors[v][c] >= 0 && mesh.colors[v][c] <= 1))
+                throw Error("color " + std::to_string(v) + " is not in 0..1");
     const py::gil_scoped_release release;
     return pipeline::about(name, [&] { return read_model(name + ".glb", mesh_glb(mesh, name), {}); });
 }
@@ -214,6 +218,13 @@ ReadingOptions reading_options(py::dict& options) {
     take(options, "lamp_scale", reading.lamp_scale);
     take(options, "smooth_normals", reading.smooth_normals_degrees);
     take(options, "memory_limit", reading.scene_limit);
+    if (!(reading.lamp_scale > 0 && reading.lamp_scale <= 1e9))
+        throw Error("lamp_scale must be above 0 and at most 1e9");
+    if (reading.smooth_normals_degrees &&
+        !(*reading.smooth_normals_degrees >= 0 && *reading.smooth_normals_degrees <= 180))
+        throw Error("smooth_normals must be in 0..180 degrees");
+    if (!(reading.scene_limit >= 0))
+        throw Error("memory_limit must be 0 or more bytes");
     choose(options, "bad_textures", reading.bad_textures,
            {{"error", BadTextures::error}, {"ignore", BadTextures::ignore}});
     return reading;

@@ -10,6 +10,17 @@
 
 #include <string>
 
+namespace {
+
+/// Raises an exception with a message that may contain bytes which are not UTF-8.
+void raise(PyObject* type, const std::string& message) {
+    PyObject* text = PyUnicode_DecodeUTF8(message.data(), static_cast<Py_ssize_t>(message.size()), "replace");
+    PyErr_SetObject(type, text);
+    Py_XDECREF(text);
+}
+
+} // namespace
+
 PYBIND11_MODULE(_prtkit, module) {
     namespace py = pybind11;
     module.doc() = "Functions in C++ of the package prtkit; use the package itself.";
@@ -23,9 +34,9 @@ PYBIND11_MODULE(_prtkit, module) {
             if (thrown)
                 std::rethrow_exception(thrown);
         } catch (const prt::Cancelled& e) {
-            PyErr_SetString(cancelled.ptr(), e.what());
+            raise(cancelled.ptr(), e.what());
         } catch (const prt::Error& e) {
-            PyErr_SetString(error.ptr(), e.what());
+            raise(error.ptr(), e.what());
         }
     });
     prt::python::add_model(module);

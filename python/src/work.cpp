@@ -116,6 +116,7 @@ void take_bake_options(py::dict& options, BakeOptions& bake) {
 void take_texels(py::dict& options, pipeline::TexelRequest& request) {
     py::dict texels;
     take(options, "lightmap", texels);
+    const bool asked = !texels.empty();
     take(texels, "size", request.texels.size);
     take(texels, "per_metre", request.texels.per_metre);
     take(texels, "uv", request.texels.uv_set);
@@ -123,6 +124,8 @@ void take_texels(py::dict& options, pipeline::TexelRequest& request) {
     choose(texels, "atlas", request.texels.atlases,
            {{"auto", AtlasMode::automatic}, {"one", AtlasMode::one}, {"each", AtlasMode::each}});
     check_empty(texels);
+    if (asked && (!request.given() || request.texels.size < 0))
+        throw Error("lightmap needs a size or per_metre above 0");
     take(options, "high_poly", request.high_poly.file);
     take(options, "high_poly_distance", request.high_poly.distance);
 }
@@ -130,6 +133,7 @@ void take_texels(py::dict& options, pipeline::TexelRequest& request) {
 void take_volume(py::dict& options, pipeline::VolumeRequest& request) {
     py::dict volume;
     take(options, "volume", volume);
+    const bool asked = !volume.empty();
     take(volume, "spacing", request.volume.spacing);
     take(volume, "probes", request.volume.probes);
     take(volume, "error", request.volume.error);
@@ -142,6 +146,8 @@ void take_volume(py::dict& options, pipeline::VolumeRequest& request) {
         request.bounds = {{(*bounds)[0][0], (*bounds)[0][1], (*bounds)[0][2]},
                           {(*bounds)[1][0], (*bounds)[1][1], (*bounds)[1][2]}};
     check_empty(volume);
+    if (asked && !request.given())
+        throw Error("volume needs a spacing or a number of probes above 0");
 }
 
 void take_instances(py::dict& options, pipeline::InstanceArguments& instances) {

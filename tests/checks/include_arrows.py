@@ -22,7 +22,7 @@ PARTS = {
     "c": ("runtime/c", "runtime shader image load", "glm"),
     "render": ("runtime/render", "runtime image load", "glm"),
     "gl": ("runtime/render/gl", "runtime load render shader shaders", "glm epoxy glfw"),
-    "gltf": ("bake/gltf", "runtime load", "glm tinygltf nlohmann meshoptimizer draco tinyobjloader"),
+    "gltf": ("bake/gltf", "runtime load", "glm tinygltf nlohmann meshoptimizer draco"),
     "bake": ("bake", "runtime load gltf render device tracers shaders", "glm fmt embree Eigen stb"),
     "device": ("bake/device", "runtime bake", "glm fmt vulkan"),
     "trace_gpu": ("bake/trace_gpu", "runtime load gltf bake device shaders", "glm embree"),
@@ -76,7 +76,7 @@ EXCEPTIONS = {
 PACKAGES = {  # prefixes of their headers
     "glm/": "glm", "ceres/": "ceres", "Eigen/": "Eigen", "OpenEXR/": "OpenEXR", "Imath": "OpenEXR", "Imf": "OpenEXR",
     "stb/": "stb", "zlib": "zlib", "tiny_gltf": "tinygltf", "nlohmann/": "nlohmann", "meshoptimizer": "meshoptimizer",
-    "draco/": "draco", "tiny_obj_loader": "tinyobjloader", "pybind11/": "pybind11",
+    "draco/": "draco", "pybind11/": "pybind11",
     "epoxy/": "epoxy", "webp/": "libwebp", "avif/": "libavif", "GLFW/": "glfw", "embree3/": "embree", "fmt/": "fmt", "CLI/": "CLI",
     "imgui": "imgui", "backends/imgui": "imgui", "vulkan/vulkan_raii": "vulkan",
 }

@@ -103,10 +103,21 @@ def test_bad_types():
         prtkit.compute_prt(GOOD, FACE, order=10)
     with pytest.raises(ValueError, match="n must be"):
         prtkit.compute_prt(GOOD, FACE, n=0)
+    for bounces in (-1, 0.5):
+        with pytest.raises(ValueError, match="bounces"):
+            prtkit.compute_prt(GOOD, FACE, bounces=bounces)
+    with pytest.raises(prtkit.Error, match="albedo 0"):
+        prtkit.compute_prt(GOOD, FACE, n=2, bounces=1, albedo=GOOD * np.nan)
+    with pytest.raises(ValueError, match="band 3"):
+        prtkit.compute_prt(GOOD, FACE, n=2, order=3, convention="gltf")
+    with pytest.raises(prtkit.Error, match="color 1"):
+        prtkit.from_arrays(GOOD, FACE, colors=2 * GOOD)
+    with pytest.raises(TypeError, match="masked"):
+        prtkit.compute_prt(np.ma.masked_equal(GOOD, 1), FACE)
     with pytest.raises(prtkit.Error, match="direction"):
         prtkit.compute_prt(GOOD, FACE, directions=np.zeros((2, 3)))
     with pytest.raises(prtkit.Error, match="not one of"):
-        prtkit.compute_prt(GOOD, FACE, backend="cuda")
+        prtkit.compute_prt(GOOD, FACE, n=2, backend="cuda")
     with pytest.raises(ValueError, match="convention"):
         prtkit.compute_prt(GOOD, FACE, convention="godot")
 
@@ -129,12 +140,29 @@ def test_bad_options():
     with pytest.raises(prtkit.Error, match="transfer"):
         prtkit.relight(model, np.zeros((9, 3)))
     baked = prtkit.bake(model, order=3, rays=4)
-    with pytest.raises(prtkit.Error, match="order 2"):
-        prtkit.relight(baked, np.zeros((4, 3)))
-    with pytest.raises(prtkit.Error, match="not finite"):
-        prtkit.relight(baked, np.full((9, 3), np.nan))
-    with pytest.raises(prtkit.Error, match="shape"):
-        prtkit.relight(baked, np.zeros(9))
+    for light in (np.full((9, 3), np.nan), np.zeros(9), np.zeros((5, 3))):
+        for use in (prtkit.relight, prtkit.render):
+            with pytest.raises(ValueError, match="not finite|shape|order²"):
+                use(baked, light)
+    for options, message in [
+        ({"samples": 0}, "samples"),
+        ({"fov": np.nan}, "field of view"),
+        ({"exposure": np.nan}, "exposure"),
+        ({"path_trace": 1}, "paths"),
+        ({"size": (0, 8)}, "size"),
+        ({"lamp_scale": -1.0}, "factor"),
+    ]:
+        with pytest.raises(prtkit.Error, match=message):
+            prtkit.render(baked, **options)
+    with pytest.raises(ValueError, match="rays"):
+        prtkit.relight(baked, rays=0)
+    with pytest.raises(ValueError, match="strength of a"):
+        prtkit.relight(baked, lamps={"a": np.nan})
+    with pytest.raises(prtkit.Error, match="rotations"):
+        prtkit.evaluate(baked, baked, rotations=1000)
+    for options in ({"lightmap": {"size": 0}}, {"lightmap": {"unwrap": True}}, {"volume": {"error": 0.1}}):
+        with pytest.raises(prtkit.Error, match="needs"):
+            prtkit.bake(model, **options)
 
 
 def test_files(tmp_path):

@@ -166,6 +166,16 @@ def test_replacement_of_prt_util(tmp_path):
     np.testing.assert_allclose(scaled, values, atol=1e-6)
     with pytest.raises(TypeError):
         computePRT(path, 10)
+    vertices, _ = prtkit.load_mesh(path)
+    np.testing.assert_array_equal(
+        vertices, [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+    )  # in the order of the file
+
+
+def test_directions_of_flat_meshes():
+    vertices, faces = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0.0]]), np.array([[0, 1, 2]])
+    values = prtkit.compute_prt(vertices, faces, directions=[[0, 0, 1.0]])
+    np.testing.assert_allclose(values[:, 0], 4 * math.pi * math.sqrt(1 / (4 * math.pi)), rtol=1e-6)
 
 
 def test_ply_files_are_read(tmp_path):

@@ -1,10 +1,12 @@
 // OBJ and PLY files as scenes: positions, triangles, normals, colors and texture coordinates of the file.
 
 #include "bake/gltf/mesh_file.h"
+#include "bake/gltf/obj_file.h"
 #include "bake/gltf/ply_file.h"
 #include "prt/core/error.h"
 #include "prt/gltf/gltf.h"
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -124,6 +126,36 @@ TEST(MeshFile, ObjIsRead) {
     EXPECT_NE(scene.notices.size(), 0u); // materials and textures
 }
 
+TEST(MeshFile, ObjVertexOrderIsThatOfTheFile) {
+    const std::string text =
+        "\xef\xbb\xbfv 0 0 0 # first\nv 1 0 0\nv 1 \\\n 1 +0\nv 0 1 0\nv 5 5 5\nf 3 1 2 # face\n";
+    const MeshArrays mesh = read_obj(std::as_bytes(std::span(text)));
+    ASSERT_EQ(mesh.positions.size(), 5u);
+    EXPECT_EQ(mesh.positions[2], glm::dvec3(1, 1, 0));
+    EXPECT_EQ(mesh.triangles.at(0), glm::uvec3(2, 0, 1));
+    const std::string corners = text + "vt 0 0\nvt 1 1\nf 3/1 1/2 2/1\n";
+    const MeshArrays both = read_obj(std::as_bytes(std::span(corners)));
+    EXPECT_EQ(both.positions.size(), 5u); // not all corners have texture coordinates
+}
+
+double area_of(const MeshArrays& mesh) {
+    double area = 0;
+    for (const glm::uvec3& t : mesh.triangles) {
+        const glm::dvec3 a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
+        area += glm::length(glm::cross(b - a, c - a)) / 2;
+    }
+    return area;
+}
+
+TEST(MeshFile, ConcavePolygonsKeepTheirArea) {
+    for (const auto& [text, area] :
+         {std::pair("v -1 0 0\nv 0 1 0\nv 1 0 0\nv 0 10 0\nf 1 2 3 4\n", 9.0),
+          {"v 0 0 0\nv 4 0 0\nv 4 4 0\nv 2 1 0\nv 0 4 0\nf 3 4 5 1 2\n", 10.0},
+          {"v 0 0 0\nv 0 0 4\nv 4 0 4\nv 4 0 1\nv 1 0 1\nv 1 0 0\nf 1 2 3 4 5 6\n", 13.0}})
+        EXPECT_NEAR(area_of(read_obj(std::as_bytes(std::span(text, std::strlen(text))))), area, 1e-12)
+            << text;
+}
+
 TEST(MeshFile, FarMeshesKeepTheirPrecision) {
     const std::string far = "v 5000000.25 0 0\nv 5000000.5 0 0\nv 5000000.25 0.25 0\nf 1 2 3\n";
     const Scene scene = scene_of(far, "map.obj");
@@ -152,7 +184,7 @@ TEST(MeshFile, DamagedFilesAreErrors) {
         {header + "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n3 0 0 7\n",
          "refers to vertex 7"},
         {header + "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n3 0 0 -1\n",
-         "does not exist"},
+         "is not a whole number"},
         {header + "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n3 0 0\n",
          "ends in its data"},
         {header + "element face 1\nproperty list uchar int vertex_indices\nend_header\nnan 0 0\n3 0 0 0\n",
@@ -162,8 +194,20 @@ TEST(MeshFile, DamagedFilesAreErrors) {
         EXPECT_TRUE(what.starts_with("bad.ply: ")) << what;
         EXPECT_NE(what.find(words), std::string::npos) << words << " in: " << what;
     }
-    EXPECT_NE(message("v 0 0 0\nf 1 2 3\n", "bad.obj").find("bad.obj"), std::string::npos);
-    EXPECT_NE(message("", "bad.obj").find("no vertices"), std::string::npos);
+    const std::pair<std::string, const char*> objects[] = {
+        {"", "no vertices"},
+        {"v 0 0 0\n", "no triangles"},
+        {"v 0 0 0\nf 1 2 3\n", "refers to vertex 2"},
+        {"v 0 0 0\nf 1 1 -2\n", "line 2 has '-2', which refers to a line that does not exist"},
+        {"v 0 0 0\nf 1 1 0\n", "line 2 has '0' where a corner should be"},
+        {"v 0 0 0\nf 1 1.5 1\n", "where a corner should be"},
+        {"v 0 0 0\nf 1 4294967297 1\n", "refers to vertex 4294967297"},
+        {"v 0 0 0\nf 1 1\n", "a face of 2 corners"},
+        {"v 0 1,5 0\nf 1 1 1\n", "line 1 has '1,5' where a number should be"},
+        {"v 0 1\nf 1 1 1\n", "line 1 has 2 numbers instead of 3"},
+        {"v 0 nan 0\nf 1 1 1\n", "not finite"}};
+    for (const auto& [text, words] : objects)
+        EXPECT_NE(message(text, "bad.obj").find(words), std::string::npos) << message(text, "bad.obj");
     const std::string whole = binary_square(std::endian::little);
     for (std::size_t length = 0; length < whole.size(); ++length)
         EXPECT_NE(message(whole.substr(0, length), "short.ply"), "") << length;
