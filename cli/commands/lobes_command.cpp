@@ -257,9 +257,13 @@ bool separate_backs(const LobesArguments& a, const Figure& figure, GltfDocument&
 
 /// Adds the coarser levels of the figure to the report.
 void add_levels_of(const LobesArguments& a, const Figure& figure, const Made& made, Report& report) {
-    if (!made.mean.levels.levels.empty())
-        add_level_bake(
-            {{.nodes = moving_levels(figure.model, figure.poses)}, a.bake.levels, made.mean.levels}, report);
+    if (made.mean.levels.levels.empty())
+        return;
+    BakedLevels levels;
+    levels.scene.nodes = moving_levels(figure.model, figure.poses);
+    levels.mode = a.bake.levels;
+    levels.bake = made.mean.levels;
+    add_level_bake(levels, report);
 }
 
 /// Bakes and fits lobes, and writes them into the document of `input`.
