@@ -167,7 +167,7 @@ TEST(TexelsOfMedia, AreBesideOtherSurfaces) {
     scene.primitives.push_back(scene.primitives[0]);
     for (std::size_t p = 0; p < 2; ++p) // one of both triangles of the floor each
         scene.primitives[p].triangles = {scene.primitives[p].triangles[p]};
-    scene.materials.push_back({.name = "stone"});
+    scene.materials.emplace_back().name = "stone";
     scene.primitives[1].material = 1;
     BakeOptions options = with_medium(options_of(1, 256, 0));
     for (MediumChoice& choice : options.subsurface.media)
