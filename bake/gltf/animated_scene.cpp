@@ -1,5 +1,6 @@
 // A scene with animated nodes.
 #include "bake/gltf/extraction.h"
+#include "bake/gltf/followed_nodes.h"
 #include "bake/gltf/read_animations.h"
 #include "prt/core/error.h"
 #include "prt/gltf/animation.h"
@@ -9,7 +10,6 @@
 #include "runtime/load/transformed_normal.h"
 
 #include <algorithm>
-#include <map>
 
 namespace prt {
 namespace {
@@ -71,8 +71,7 @@ AnimatedScene::AnimatedScene(const GltfDocument& document, ReadLevels levels) {
         NodeTree tree = node_tree(contents.model);
         tree.order.insert(tree.order.end(), geometry.nodes.outside.begin(), geometry.nodes.outside.end());
         tree_ = std::make_shared<const NodeTree>(std::move(tree));
-        for (const GltfNode& node : contents.model.nodes)
-            names_.push_back(node.name);
+        names_ = node_names(contents.model);
         leveled_ = leveled_scene(contents, std::move(geometry));
         for (std::size_t skin = 0; skin < contents.model.skins.size(); ++skin)
             skins_.push_back(read_skin(contents.model, static_cast<int>(skin)));
@@ -104,37 +103,22 @@ std::vector<glm::dmat4> AnimatedScene::pose(const Animation& animation, double s
 
 std::vector<glm::dmat4> AnimatedScene::followed(const AnimatedScene& leader,
                                                 std::span<const glm::dmat4> nodes) const {
-    std::map<std::string, std::vector<std::size_t>> named;
-    for (std::size_t node = 0; node < leader.nodes(); ++node)
-        if (!leader.names_[node].empty())
-            named[leader.names_[node]].push_back(node);
-    const std::vector<glm::dmat4> led = leader.rest(), own = rest();
-    std::vector<glm::dmat4> moves(names_.size(), glm::dmat4(1)); // of the world, from the pose of the file
-    std::vector<bool> follows(names_.size());
-    for (const NodeTree::Entry& entry : tree_->order) {
-        const auto node = static_cast<std::size_t>(entry.node);
-        if (const auto found = named.find(names_[node]); found != named.end()) {
-            if (found->second.size() > 1)
-                throw Error("several nodes have the name '" + printable(names_[node]) +
-                            "', which the high-poly model follows");
-            const std::size_t n = found->second[0];
-            moves[node] = nodes[n] * glm::inverse(led[n]);
-            follows[node] = true;
-        } else if (entry.parent >= 0) {
-            moves[node] = moves[static_cast<std::size_t>(entry.parent)];
-            follows[node] = follows[static_cast<std::size_t>(entry.parent)];
-        }
-    }
+    const std::vector<int> follows = followed_nodes(leader.names_, names_, tree_->order);
     for (const MovingVertices& vertices : vertices_)
         for (const std::size_t joint : vertices.skin < 0
                                            ? std::vector<std::size_t>{}
                                            : skins_[static_cast<std::size_t>(vertices.skin)].joints)
-            if (!follows[joint])
+            if (follows[joint] < 0)
                 throw Error("has no node with the name of joint node " + std::to_string(joint) + " '" +
                             printable(names_[joint]) + "' of the high-poly model");
-    for (std::size_t node = 0; node < moves.size(); ++node)
-        moves[node] = moves[node] * own[node];
-    return moves;
+    const std::vector<glm::dmat4> led = leader.rest();
+    std::vector<glm::dmat4> own = rest();
+    for (std::size_t node = 0; node < own.size(); ++node)
+        if (follows[node] >= 0) { // moves as that node does from the pose of the file
+            const auto n = static_cast<std::size_t>(follows[node]);
+            own[node] = nodes[n] * glm::inverse(led[n]) * own[node];
+        }
+    return own;
 }
 
 std::vector<glm::dmat4> AnimatedScene::matrices(std::size_t vertex_array,

@@ -2,7 +2,9 @@
 
 #include "bake/gltf/rigid_parts.h"
 
+#include "bake/gltf/followed_nodes.h"
 #include "bake/gltf/write_set.h"
+#include "prt/core/error.h"
 #include "runtime/load/accessor.h"
 #include "runtime/load/node_transforms.h"
 
@@ -20,6 +22,11 @@ namespace {
 
 /// Indices of triangles per primitive of a scene.
 using Triangles = std::map<std::size_t, std::vector<std::size_t>>;
+
+void append(const Triangles& from, Triangles& to) {
+    for (const auto& [p, triangles] : from)
+        to[p].insert(to[p].end(), triangles.begin(), triangles.end());
+}
 
 /// The node hierarchy, with the node that moves each node.
 class Carriers {
@@ -102,8 +109,9 @@ int joint_of(const SkinnedVertices& vertices, const VertexArray& array, const gl
     return most == sums.end() ? -1 : static_cast<int>(most->first);
 }
 
-/// Returns the triangles, grouped by the node that moves them.
-std::map<int, Triangles> carried(const GltfModel& model, const Scene& scene, const Carriers& carriers) {
+/// Returns the triangles, grouped by `group` of the node or joint that they belong to.
+template <class Group>
+std::map<int, Triangles> grouped(const GltfModel& model, const Scene& scene, const Group& group) {
     std::map<int, Triangles> parts;
     for (std::size_t p = 0; p < scene.primitives.size(); ++p) {
         const Primitive& primitive = scene.primitives[p];
@@ -119,7 +127,7 @@ std::map<int, Triangles> carried(const GltfModel& model, const Scene& scene, con
                     joint >= 0)
                     carrier = model.skins[static_cast<std::size_t>(node.skin)]
                                   .joints[static_cast<std::size_t>(joint)];
-            parts[carriers.of(carrier)][p].push_back(t);
+            parts[group(carrier)][p].push_back(t);
         }
     }
     return parts;
@@ -150,10 +158,7 @@ void join_small(const Scene& scene, const Carriers& carriers, double least, std:
         const int above = carriers.above(node);
         if (above < 0 || diagonal_of(scene, parts[node]) >= least)
             continue;
-        for (auto& [p, triangles] : parts[node]) {
-            std::vector<std::size_t>& to = parts[above][p];
-            to.insert(to.end(), triangles.begin(), triangles.end());
-        }
+        append(parts[node], parts[above]);
         parts.erase(node);
         open.insert({carriers.depth(above), above});
     }
@@ -202,9 +207,9 @@ private:
     std::map<int, int> images_;
 };
 
-Scene part_of(const Scene& scene, const Triangles& triangles) {
-    Scene part;
-    part.origin = scene.origin;
+/// Adds triangles of `scene` to `part`.
+void add_triangles(const Scene& scene, const Triangles& triangles, Scene& part) {
+    const glm::vec3 shift(scene.origin - part.origin);
     PartMaterials materials(scene, part);
     for (const auto& [p, chosen] : triangles) {
         const Primitive& from = scene.primitives[p];
@@ -214,15 +219,12 @@ Scene part_of(const Scene& scene, const Triangles& triangles) {
             from.mirrored, {}};
         VertexArray& kept = part.vertex_arrays.emplace_back();
         kept.texcoords.resize(array.texcoords.size());
-        kept.first_receiver = part.vertex_arrays.size() < 2
-                                  ? 0
-                                  : std::prev(part.vertex_arrays.end(), 2)->first_receiver +
-                                        std::prev(part.vertex_arrays.end(), 2)->size();
+        kept.first_receiver = part.receivers();
         std::map<std::uint32_t, std::uint32_t> numbers;
         const auto number_of = [&](std::uint32_t v) {
             const auto [found, is_new] = numbers.try_emplace(v, static_cast<std::uint32_t>(kept.size()));
             if (is_new) {
-                kept.positions.push_back(array.positions[v]);
+                kept.positions.push_back(array.positions[v] + shift);
                 kept.normals.push_back(array.normals[v]);
                 for (std::size_t set = 0; set < array.texcoords.size(); ++set)
                     if (!array.texcoords[set].empty())
@@ -239,7 +241,52 @@ Scene part_of(const Scene& scene, const Triangles& triangles) {
         }
         part.primitives.push_back(std::move(to));
     }
-    return part;
+}
+
+/// The triangles of a scene, grouped by the nodes of its parts.
+struct Split {
+    Split(const GltfContents& contents, const Scene& scene, const RigidPartsOptions& options)
+        : carriers(contents.model, contents.parsed.animations),
+          triangles(grouped(contents.model, scene, [&](int node) { return carriers.of(node); })) {
+        const Bounds box = bounds(scene);
+        join_small(scene, carriers, options.min_share * static_cast<double>(glm::distance(box.low, box.high)),
+                   triangles);
+    }
+    /// Returns the node of the part that contains `node`; -1 without such a part.
+    int part(int node) const {
+        int at = node < 0 ? -1 : carriers.of(node);
+        while (at >= 0 && !triangles.contains(at))
+            at = carriers.above(at);
+        return at;
+    }
+
+    Carriers carriers;
+    std::map<int, Triangles> triangles;
+};
+
+/// Returns the parts of a scene without their triangles.
+std::vector<RigidPart> placed_parts(const GltfModel& model, const Scene& scene, const Split& split) {
+    std::map<int, glm::dmat4> worlds;
+    for (const NodeTransform& node : world_transforms(model))
+        worlds[node.node] = node.world;
+    std::vector<RigidPart> parts;
+    for (const auto& [node, triangles] : split.triangles) {
+        if (!worlds.contains(node))
+            throw Error("joint " + std::to_string(node) + " of a skin is not in the scene");
+        parts.push_back(
+            {node, name_of(model, node), glm::translate(glm::dmat4(1), -scene.origin) * worlds[node], {}});
+        parts.back().scene.origin = scene.origin;
+    }
+    return parts;
+}
+
+/// Returns the triangles of a high-poly model, grouped by the nodes of the parts of `split`. `leaders`: names
+/// of the nodes of the file of the parts.
+std::map<int, Triangles> finer_triangles(const GltfModel& model, const Scene& finer, const Split& split,
+                                         std::span<const std::string> leaders) {
+    const std::vector<int> followed = followed_nodes(leaders, node_names(model), node_tree(model).order);
+    return grouped(model, finer,
+                   [&](int node) { return split.part(followed[static_cast<std::size_t>(node)]); });
 }
 
 } // namespace
@@ -247,25 +294,38 @@ Scene part_of(const Scene& scene, const Triangles& triangles) {
 std::vector<RigidPart> rigid_parts(const GltfDocument& document, const Scene& scene,
                                    const RigidPartsOptions& options) {
     return named(document, [&](const GltfContents& contents) {
-        const GltfModel& model = contents.model;
-        const Carriers carriers(model, contents.parsed.animations);
-        std::map<int, glm::dmat4> worlds;
-        for (const NodeTransform& node : world_transforms(model))
-            worlds[node.node] = node.world;
-        std::map<int, Triangles> triangles = carried(model, scene, carriers);
-        for (const auto& part : triangles)
-            if (!worlds.contains(part.first))
-                throw Error("joint " + std::to_string(part.first) + " of a skin is not in the scene");
-        const Bounds box = bounds(scene);
-        join_small(scene, carriers, options.min_share * static_cast<double>(glm::distance(box.low, box.high)),
-                   triangles);
-        std::vector<RigidPart> parts;
-        for (const auto& [node, chosen] : triangles) {
-            parts.push_back({node, name_of(model, node),
-                             glm::translate(glm::dmat4(1), -scene.origin) * worlds[node],
-                             part_of(scene, chosen)});
-        }
+        const Split split(contents, scene, options);
+        std::vector<RigidPart> parts = placed_parts(contents.model, scene, split);
+        for (RigidPart& part : parts)
+            add_triangles(scene, split.triangles.at(part.node), part.scene);
         return parts;
+    });
+}
+
+DetailedParts detailed_parts(const GltfDocument& document, const Scene& scene, const GltfDocument& high_poly,
+                             const Scene& finer, const RigidPartsOptions& options) {
+    return named(document, [&](const GltfContents& contents) {
+        const Split split(contents, scene, options);
+        const std::map<int, Triangles> detailed =
+            finer_triangles(high_poly.contents().model, finer, split, node_names(contents.model));
+        DetailedParts result{.parts = placed_parts(contents.model, scene, split)};
+        result.scene.origin = scene.origin;
+        Triangles all_detailed, all_own;
+        for (RigidPart& part : result.parts) {
+            const auto found = detailed.find(part.node);
+            const bool own = found == detailed.end();
+            const Triangles& triangles = own ? split.triangles.at(part.node) : found->second;
+            add_triangles(own ? scene : finer, triangles, part.scene);
+            append(triangles, own ? all_own : all_detailed);
+            if (own)
+                result.own.push_back(part.name);
+        }
+        if (all_detailed.empty())
+            throw Error("no object has the name of a node of the high-poly model with triangles");
+        add_triangles(finer, all_detailed, result.scene);
+        result.unused = finer.triangles() - result.scene.triangles();
+        add_triangles(scene, all_own, result.scene);
+        return result;
     });
 }
 

@@ -24,6 +24,16 @@ struct RigidPart {
     Scene scene;
 };
 
+/// Rigid parts whose triangles are those of a high-poly model.
+struct DetailedParts {
+    /// Parts of the scene: nodes, names and frames are those of the scene. Triangles are those of the
+    /// high-poly model, if it has any for the part.
+    std::vector<RigidPart> parts = {};
+    std::vector<std::string> own = {}; ///< names of the parts that keep their own triangles
+    Scene scene = {};                  ///< triangles of all `parts`, with the origin of the original scene
+    std::size_t unused = 0;            ///< number of triangles of the high-poly model that belong to no part
+};
+
 /// Settings of `rigid_parts`.
 struct RigidPartsOptions {
     /// Minimum diagonal of the bounding box of a part, as a fraction of that of the full scene, 0..1. A
@@ -39,5 +49,14 @@ struct RigidPartsOptions {
 /// `Error` if this joint is not in the hierarchy of the scene.
 std::vector<RigidPart> rigid_parts(const GltfDocument& document, const Scene& scene,
                                    const RigidPartsOptions& options = {});
+
+/// Splits `scene` as `rigid_parts`, and replaces the triangles of parts by those of the high-poly model
+/// `finer`, which was extracted from `high_poly`. The world of both files is the same. A node of the
+/// high-poly model belongs to the part that contains the node of the scene with its name; without such a
+/// name, to the part of its parent. A triangle of a skinned mesh belongs to the part of the joint with the
+/// largest sum of weights. Throws the errors of `rigid_parts`, and `Error` if several nodes of the scene have
+/// the name of a node of the high-poly model, or if no part has triangles of the high-poly model.
+DetailedParts detailed_parts(const GltfDocument& document, const Scene& scene, const GltfDocument& high_poly,
+                             const Scene& finer, const RigidPartsOptions& options = {});
 
 } // namespace prt

@@ -43,14 +43,14 @@ struct AoArguments {
 
 constexpr const char* kBentNormal = "_BENT_NORMAL"; ///< attribute
 
-OccluderOptions occluder_options(const AoArguments& a) {
+OccluderRequest occluder_request(const AoArguments& a) {
     OccluderOptions options;
     options.rays = a.rays.value_or(options.rays);
     options.tracer = a.options.tracer;
     options.repairs = a.options.repairs;
     options.threads = a.options.threads;
     options.seed = a.options.seed;
-    return options;
+    return {options, a.textures.high_poly.file, a.reading, print_notices};
 }
 
 /// DISTANCE[:SHARE]
@@ -218,8 +218,6 @@ void check_arguments(const AoArguments& a) {
     if (a.attribute == kBentNormal && a.outputs.bent_normals)
         throw Error("--attribute: _BENT_NORMAL is the attribute of --bent-normals; choose another name");
     check_texels(a.textures, a.texels_option);
-    if (a.outputs.occluders && !a.textures.high_poly.file.empty())
-        throw Error("--occluders does not support --high-poly: bake the volumes of the detailed model");
     if (a.outputs.occluders && !a.options.tracer.falloff.blocks_everywhere())
         throw Error(
             "--occluders does not support --falloff and --max-distance: its volumes have their own reach");
@@ -242,7 +240,7 @@ void separate(const AoArguments& a, GltfDocument& document, Scene& scene) {
 Report bake_asked(const AoArguments& a, GltfDocument& document, const Scene& scene, const TexelRoom& room,
                   const Progress& progress) {
     if (a.outputs.occluders)
-        return bake_occluders(document, scene, occluder_options(a), progress);
+        return bake_occluders(document, scene, occluder_request(a), progress);
     return a.in_textures() ? bake_textures(a, document, scene, room.atlases, progress)
                            : bake_vertices(a, document, scene, progress);
 }
@@ -308,6 +306,8 @@ void add_outputs(CLI::App* command, AoArguments& a) {
             "object: a root node with all nodes below it; animated nodes and bones are separate objects\n"
             "small animated nodes and bones are merged into the nearest object above in the hierarchy\n"
             "  small: the diagonal of the bounding box is below 12 % of that of the scene\n"
+            "--high-poly: light is blocked by nodes of FILE with the names of the objects; distance: no "
+            "effect\n"
             "not with --texels, --attribute, --bent-normals, --fit, --enclosed, --falloff, --max-distance")
         ->excludes(texels)
         ->excludes("--attribute")

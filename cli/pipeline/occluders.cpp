@@ -5,8 +5,10 @@
 #include "bake/gltf/rigid_parts.h"
 #include "prt/core/error.h"
 #include "prt/gltf/transfer_gltf.h"
+#include "runtime/core/support/counted.h"
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
@@ -76,15 +78,36 @@ BakedParts bake_parts(const std::vector<RigidPart>& parts, const OccluderOptions
     return all;
 }
 
+/// Returns the objects, with triangles of the high-poly model if there is one; DetailedParts::scene is empty
+/// without it.
+DetailedParts parts_of(const OccluderRequest& request, const GltfDocument& document, const Scene& scene) {
+    if (request.high_poly.empty())
+        return {.parts = rigid_parts(document, scene)};
+    const GltfDocument high_poly = load_gltf(request.high_poly, request.reading);
+    const Scene finer = extract_scene(high_poly);
+    DetailedParts detailed = detailed_parts(document, scene, high_poly, finer);
+    std::vector<std::string> notices = finer.notices;
+    if (!detailed.own.empty())
+        notices.push_back(
+            fmt::format("has no nodes with triangles for these objects, which keep their own: {}",
+                        fmt::join(detailed.own, ", ")));
+    if (detailed.unused > 0)
+        notices.push_back(fmt::format("{} no object with the name of their node, and block no light",
+                                      counted(detailed.unused, "triangle has", "triangles have")));
+    send(request.notify, request.high_poly, notices);
+    return detailed;
+}
+
 } // namespace
 
-Report bake_occluders(GltfDocument& document, const Scene& scene, const OccluderOptions& options,
+Report bake_occluders(GltfDocument& document, const Scene& scene, const OccluderRequest& request,
                       const Progress& progress) {
-    const std::vector<RigidPart> parts = rigid_parts(document, scene);
-    const BakedParts baked = bake_parts(parts, options, progress.range(0, 0.9));
+    const DetailedParts objects = parts_of(request, document, scene);
+    const BakedParts baked = bake_parts(objects.parts, request.options, progress.range(0, 0.9));
     write_occluders(document, baked.occluders);
     const FloorOcclusion floor =
-        floor_occlusion(scene, baked.volumes, baked.frames, options, progress.range(0.9, 1));
+        floor_occlusion(request.high_poly.empty() ? scene : objects.scene, baked.volumes, baked.frames,
+                        request.options, progress.range(0.9, 1));
     Report report;
     add_figures(report, {{"objects", baked.occluders.size()},
                          {"objects_omitted", baked.left_out},

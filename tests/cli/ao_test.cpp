@@ -164,7 +164,7 @@ TEST_F(Occlusion, RejectsUnsupportedOptions) {
     } cases[] = {
         {{"--texels", "16"}, 1, "has no TEXCOORD_1"},
         {{"--texels", "16", "--texels", "uv=0"}, 1, "has no TEXCOORD_0"},
-        {{"--high-poly", at("t.glb"), "--occluders"}, 1, "--occluders does not support --high-poly"},
+        {{"--high-poly", at("t.glb"), "--occluders"}, 1, "no object has the name"},
         {{"--texels", "16", "--texels", "unwrap", "--high-poly", at("missing.glb")}, 1, "missing.glb"},
         {{"--high-poly", "distance=1"}, 1, "needs a file"},
         {{"--texels", "unwrap"}, 1, "--texels needs a size"},

@@ -3,6 +3,8 @@
 #include "pipeline.h"
 #include "prt/gltf/gltf.h"
 #include "prt/gltf/transfer_gltf.h"
+#include "support/glb_file.h"
+#include "support/scene_builder.h"
 
 #include <gtest/gtest.h>
 
@@ -47,6 +49,52 @@ TEST_F(OccluderCommand, RejectsSurfaceOptions) {
     EXPECT_EQ(outcome.status, 1);
     EXPECT_NE(outcome.err.find("does not support --falloff"), std::string::npos) << outcome.err;
     EXPECT_FALSE(std::filesystem::exists(folder / "out.glb"));
+}
+
+/// Writes spheres at x = -2 and x = 2: of radius `scale` / 5 below a node 'ball', and of radius 1/5 at a node
+/// `second`.
+void write_spheres(const std::filesystem::path& path, double scale, const char* second) {
+    GlbFile file = scene_file(SceneBuilder().sphere({0, 0, 0}, 0.2f, 6).build());
+    file.json["nodes"] = {{{"name", "ball"}, {"translation", {-2, 0, 0}}, {"children", {1}}},
+                          {{"mesh", 0}, {"scale", {scale, scale, scale}}},
+                          {{"name", second}, {"translation", {2, 0, 0}}, {"mesh", 0}}};
+    file.json["scenes"][0]["nodes"] = {0, 2};
+    file.write(path);
+}
+
+/// Objects with and without a counterpart block light as those of a file with the same triangles.
+TEST_F(OccluderCommand, TracesAHighPolyModel) {
+    write_spheres(folder / "low.glb", 1, "stone");
+    write_spheres(folder / "high.glb", 3, "unknown");
+    write_spheres(folder / "both.glb", 3, "stone");
+    const auto bake = [&](const char* scene, const std::vector<std::string>& options) {
+        std::vector<std::string> arguments = {
+            "ao", at(scene), "-o", at("out.glb"), "--occluders", "--json", at("ao.json"), "--rays", "6"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        const Outcome outcome = prt(arguments);
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        return outcome.err;
+    };
+    bake("both.glb", {});
+    const std::vector<NodeOccluder> expected = read_occluders(load_gltf(folder / "out.glb"));
+    const nlohmann::json floor = read_json(folder / "ao.json");
+    const std::string notices = bake("low.glb", {"--high-poly", at("high.glb")});
+    EXPECT_NE(notices.find("which keep their own: stone"), std::string::npos) << notices;
+    EXPECT_NE(notices.find("triangles have no object with the name of their node"), std::string::npos);
+    const std::vector<NodeOccluder> found = read_occluders(load_gltf(folder / "out.glb"));
+    ASSERT_EQ(expected.size(), 2u);
+    ASSERT_EQ(found.size(), 2u);
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(found[i].node, expected[i].node);
+        EXPECT_NEAR(found[i].volume.low.x, expected[i].volume.low.x, 1e-5f);
+        EXPECT_NEAR(found[i].volume.reach, expected[i].volume.reach, 1e-2f);
+        for (std::size_t t = 0; t < expected[i].volume.texels.size(); ++t)
+            for (std::size_t c = 0; c < 4; ++c) // of 127
+                EXPECT_NEAR(found[i].volume.texels[t][c], expected[i].volume.texels[t][c], 2) << t;
+    }
+    const nlohmann::json figures = read_json(folder / "ao.json");
+    for (const char* of_floor : {"floor_mean_blocked", "floor_mean_error"})
+        EXPECT_NEAR(figures[of_floor], floor[of_floor], 1e-3) << of_floor;
 }
 
 } // namespace

@@ -167,6 +167,45 @@ TEST(RigidParts, FollowTheDominantJointsOfSkins) {
     EXPECT_EQ(parts[1].node, 2);
 }
 
+DetailedParts detailed(const GlbFile& file, const GlbFile& finer) {
+    const GltfDocument document = parsed(file), high_poly = parsed(finer);
+    return detailed_parts(document, extract_scene(document), high_poly, extract_scene(high_poly), {0});
+}
+
+/// Nodes without a name of the scene belong to the part of their parent, and a name to the part of its node.
+TEST(RigidParts, TakeTrianglesOfAHighPolyModel) {
+    GlbFile file = chain(), finer = chain();
+    rotation(file, 1); // the arm takes the hand with it
+    finer.json["nodes"][2]["name"] = "nail";
+    finer.json["nodes"].push_back({{"name", "hand"}, {"mesh", 0}, {"translation", {5, 0, 0}}});
+    finer.json["nodes"].push_back({{"name", "other"}, {"mesh", 0}});
+    finer.json["scenes"][0]["nodes"] = {0, 3, 4};
+    const DetailedParts both = detailed(file, finer);
+    ASSERT_EQ(names_of(both.parts), (std::vector<std::string>{"root", "arm"}));
+    EXPECT_EQ(both.parts[0].scene.triangles(), 1u);
+    EXPECT_EQ(both.parts[1].scene.triangles(), 3u);
+    EXPECT_FLOAT_EQ(bounds(both.parts[1].scene).high.x, 6 - static_cast<float>(both.parts[1].scene.origin.x));
+    EXPECT_EQ(both.parts[1].frame, terms_of(file)[1].frame);
+    EXPECT_EQ(both.scene.triangles(), 4u);
+    EXPECT_EQ(both.unused, 1u);
+    EXPECT_TRUE(both.own.empty());
+    finer.json["scenes"][0]["nodes"] = {3};
+    EXPECT_EQ(detailed(file, finer).own, std::vector<std::string>{"root"});
+    EXPECT_EQ(detailed(file, finer).scene.triangles(), 2u);
+    finer.json["scenes"][0]["nodes"] = {4};
+    EXPECT_THROW(detailed(file, finer), Error);
+    file.json["nodes"][0]["name"] = "arm";
+    EXPECT_THROW(detailed(file, chain()), Error); // two nodes have this name
+}
+
+TEST(RigidParts, TakeTrianglesOfSkinsOfAHighPolyModel) {
+    const DetailedParts parts = detailed(skinned(), skinned());
+    ASSERT_EQ(parts.parts.size(), 2u);
+    for (const RigidPart& part : parts.parts)
+        EXPECT_EQ(part.scene.triangles(), 1u);
+    EXPECT_TRUE(parts.own.empty());
+}
+
 OcclusionVolume any_volume(std::uint32_t seed) {
     std::mt19937 random(seed);
     std::uniform_int_distribution<int> any(-127, 127);
