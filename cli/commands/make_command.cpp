@@ -94,7 +94,7 @@ void add_make(CLI::App& app, Session& session) {
     MakeRequest& r = a.request;
     command
         ->add_option("scene", r.scene,
-                     "scene to bake and compress: glTF 2.0 (.gltf, .glb), or a mesh, .obj or .ply\n"
+                     "scene to bake and compress: glTF 2.0 (.gltf, .glb), .obj or .ply\n"
                      "                              a material with subsurface scattering is an error")
         ->required()
         ->check(named);
