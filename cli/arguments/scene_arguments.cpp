@@ -13,7 +13,7 @@ namespace {
 constexpr Choice<BackSides> kBackSides[] = {
     {"auto", BackSides::automatic,
      "add vertices for back sides that light reaches; each side then has its own light\n"
-     "  light: of lamps, and of the sky above the horizon; also after reflections"},
+     "  light: of the sky above the horizon and of lamps (not prt lobes), also after reflections"},
     {"shared", BackSides::shared, "back sides show the light of the front sides"}};
 constexpr Choice<LevelMode> kLevelModes[] = {
     {"carry", LevelMode::carry, "fit the light of level 0 to the surface of the coarser level"},

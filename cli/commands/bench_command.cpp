@@ -113,7 +113,7 @@ void add_bench(CLI::App& app, Session& session) {
     auto& a = arguments_for<BenchArguments>(command,
                                             [&session](const BenchArguments& given) { run(given, session); });
     CLI::Option* scene =
-        command->add_option("scene", a.scene, "scene to bake: .gltf or .glb; omit only with --device list")
+        command->add_option("scene", a.scene, "scene to bake: .gltf, .glb, .obj or .ply; omit only with --device list")
             ->check(named);
     add_bench_device(command, a, scene);
     command->add_option("--order", a.options.order, "SH order N of the transfer, 1 to 10: N² coefficients")
