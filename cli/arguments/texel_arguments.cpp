@@ -43,7 +43,7 @@ void add_high_poly(CLI::App* command, HighPolyRequest& a, const std::string& det
     Suboptions(
         "--high-poly", "FILE",
         "trace rays against this detailed model instead of the scene\n"
-        "FILE: .gltf or .glb, in the coordinate frame of the scene\n"
+        "FILE: .gltf, .glb, .obj or .ply, in the coordinate frame of the scene\n"
         "a vertex or texel is measured on the outermost detailed surface along its normal, within the\n"
         "  distance outwards and inwards, that faces the same way; if it is missing, on the scene\n"
         "  an error if it is missing everywhere" +

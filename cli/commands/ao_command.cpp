@@ -306,7 +306,8 @@ void add_outputs(CLI::App* command, AoArguments& a) {
             "object: a root node with all nodes below it; animated nodes and bones are separate objects\n"
             "small animated nodes and bones are merged into the nearest object above in the hierarchy\n"
             "  small: the diagonal of the bounding box is below 12 % of that of the scene\n"
-            "--high-poly: nodes of FILE with the names of objects block light; distance has no effect\n"
+            "--high-poly: nodes of FILE with the names of nodes of an object replace its triangles;\n"
+            "  objects without such nodes keep their own triangles; distance has no effect\n"
             "not with --texels, --attribute, --bent-normals, --fit, --enclosed, --falloff, --max-distance")
         ->excludes(texels)
         ->excludes("--attribute")

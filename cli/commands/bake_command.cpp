@@ -210,7 +210,7 @@ void add_measurement(CLI::App* command, BakeOptions& options) {
             "not with --texels\n"
             "with --refine: auto acts as surface; vertex is an error\n"
             "else with --target-error, --method raster or shared instances: auto acts as vertex\n"
-            "  light of lamps in a bake with shared transfer: as without it\n"
+            "  light of lamps in a bake with shared transfer: as without shared transfer\n"
             "  surface fits shared transfer to the surface, but not the 52 bytes of an instance");
     add_method(command, options.tracer,
                "bounces, lamps, probes, errors for --refine, and the effect of its surroundings on an\n"
