@@ -112,9 +112,11 @@ void add_bench(CLI::App& app, Session& session) {
         app.add_subcommand("bench", "Measure speed and error of bakes on all devices and by all methods");
     auto& a = arguments_for<BenchArguments>(command,
                                             [&session](const BenchArguments& given) { run(given, session); });
-    CLI::Option* scene =
-        command->add_option("scene", a.scene, "scene to bake: .gltf, .glb, .obj or .ply; omit only with --device list")
-            ->check(named);
+    CLI::Option* scene = command
+                             ->add_option("scene", a.scene,
+                                          "scene to bake: .gltf, .glb, .obj or .ply\n"
+                                          "                              omit only with --device list")
+                             ->check(named);
     add_bench_device(command, a, scene);
     command->add_option("--order", a.options.order, "SH order N of the transfer, 1 to 10: N² coefficients")
         ->capture_default_str()

@@ -106,7 +106,7 @@ void add_evaluate(CLI::App& app, Session& session) {
             command, a.lights,
             "light under which errors are measured\n"
             "default: built-in lights: a uniform sky, an overcast sky and a sun; FILE replaces all three\n"
-            "with a second file also: these lights together with all lamps of the bake;\n"
+            "with a second file also: each of these lights with all lamps of the bake;\n"
             "  the worst of 64 suns, random light, all lamps, each lamp alone\n"
             "light file: at least the order of the first file")
             ->default_str("three built-in lights");
