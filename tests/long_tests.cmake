@@ -23,6 +23,7 @@ set(long_tests
     Subsurface.IsFinite* SunShadowPictures.AgreeWithRays* Suns.SumWithTheRemainder* Sweep.*
     TargetError.FindsTheWindow* TargetError.IsReached* TargetError.NeedsFewer* Trace.NoCluster*
     LightmapViewer.CompressesABake* Lightmaps.TouchingBlocks* NoiseFilter.ChangesLittle* NoiseFilter.RemovesMostNoiseOfASky*
+    ViewedLamp.IsRejected* GpuSums.AddNoHitTwice* Light.OvercastSky* TransferTerms.AreKept*
     LobesCommand.MeasuresLightWithATargetError* LightmapViewer.SavesTheCompressed* NoiseFilter.RemovesMostNoise
     PathTraced.ErrorsAreSmall* SideFile.ExcessiveReferences* HostileGltf.SharedMeshesAreBounded* ExampleFigure.ItsFeet*
     Kinds/VertexShader.AgreesWithCppPerVertex/7 PlainSkies.AreFinite* Search.FindsFewClusters* Trace.RecordsEveryTrial*
