@@ -147,6 +147,14 @@ void note_lights(const BakeWork& a, const Scene& scene, const Transfer& transfer
         send(a.host.notify, a.scene, {std::move(*notice)});
 }
 
+void add_levels_and_volume(const std::optional<BakedLevels>& levels, const std::optional<VolumeBake>& volume,
+                           Report& report) {
+    if (levels)
+        add_level_bake(*levels, report);
+    if (volume)
+        add_volume_bake(*volume, report);
+}
+
 Report run_vertices(const BakeWork& a, GltfDocument& document, Scene& scene) {
     about(a.scene, [&] { separate_sides(sides_of(a), document, scene); });
     std::optional<BakedLevels> levels = about(a.scene, [&] {
@@ -166,10 +174,7 @@ Report run_vertices(const BakeWork& a, GltfDocument& document, Scene& scene) {
                                  .refinement = baked.refinement,
                                  .refine_target = a.finer.refine.value_or(0),
                                  .bytes = a.host.write(a.output, file)});
-    if (levels)
-        add_level_bake(*levels, report);
-    if (volume)
-        add_volume_bake(*volume, report);
+    add_levels_and_volume(levels, volume, report);
     return report;
 }
 
@@ -237,10 +242,7 @@ Report run_instances(const BakeWork& a, SharedMeshes meshes, GltfDocument& docum
                                      .refinement = refinement,
                                      .refine_target = a.finer.refine.value_or(0),
                                      .bytes = a.host.write(a.output, file)});
-    if (levels)
-        add_level_bake(*levels, report);
-    if (volume)
-        add_volume_bake(*volume, report);
+    add_levels_and_volume(levels, volume, report);
     return report;
 }
 

@@ -41,24 +41,6 @@ std::vector<std::string> names_of(const TransferLayout& layout) {
     return names;
 }
 
-std::vector<glm::vec3> strengths_of(const Json& file, const TransferLayout& layout) {
-    if (!file.is_object())
-        throw Error("must contain a JSON object with a strength for each lamp");
-    const glm::vec3 others = file.contains("*") ? color_of(file["*"], "*") : glm::vec3(1);
-    std::vector<glm::vec3> strengths(layout.lamps(), others);
-    const std::vector<std::string> names = names_of(layout);
-    for (const auto& [name, value] : file.items()) {
-        if (name == "*")
-            continue;
-        const auto found = std::find(names.begin(), names.end(), name);
-        if (found == names.end())
-            throw Error(fmt::format("the model has no lamp '{}'; its lamps are: {}", printable(name),
-                                    printable(fmt::format("{}", fmt::join(names, ", ")))));
-        strengths[static_cast<std::size_t>(found - names.begin())] = color_of(value, name);
-    }
-    return strengths;
-}
-
 /// Whether each lamp of `layout` has a light of `scene` in it: [layout.lamps()].
 std::vector<bool> punctual_lamps(const Scene& scene, const TransferLayout& layout) {
     std::vector<bool> punctual;
@@ -122,9 +104,27 @@ std::optional<std::string> photometric_notice(const Scene& scene, const Relit& m
         ratio, 1 / kLumensPerWatt, ratio / kLumensPerWatt);
 }
 
+std::vector<glm::vec3> lamp_strengths_of(const Json& file, const TransferLayout& layout) {
+    if (!file.is_object())
+        throw Error("must contain a JSON object with a strength for each lamp");
+    const glm::vec3 others = file.contains("*") ? color_of(file["*"], "*") : glm::vec3(1);
+    std::vector<glm::vec3> strengths(layout.lamps(), others);
+    const std::vector<std::string> names = names_of(layout);
+    for (const auto& [name, value] : file.items()) {
+        if (name == "*")
+            continue;
+        const auto found = std::find(names.begin(), names.end(), name);
+        if (found == names.end())
+            throw Error(fmt::format("the model has no lamp '{}'; its lamps are: {}", printable(name),
+                                    printable(fmt::format("{}", fmt::join(names, ", ")))));
+        strengths[static_cast<std::size_t>(found - names.begin())] = color_of(value, name);
+    }
+    return strengths;
+}
+
 std::vector<glm::vec3> lamp_strengths(const LampChoice& lamps, const TransferLayout& layout) {
     if (!lamps.file.empty())
-        return about(lamps.file, [&] { return strengths_of(json::read_json(lamps.file), layout); });
+        return about(lamps.file, [&] { return lamp_strengths_of(json::read_json(lamps.file), layout); });
     return std::vector<glm::vec3>(layout.lamps(), glm::vec3(lamps.on ? 1 : 0));
 }
 

@@ -6,6 +6,7 @@
 #include "prt/load/scene.h"
 
 #include <glm/vec3.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <filesystem>
 #include <functional>
@@ -42,6 +43,9 @@ Relit relit_by(const Transfer& transfer, std::span<const float> areas, int threa
 std::optional<std::string> photometric_notice(const Scene& scene, const Relit& model,
                                               const Lighting& lighting);
 
+/// Returns the strengths, [layout.lamps()], of a JSON object as in LampChoice::file. Throws the errors of
+/// `lamp_strengths`.
+std::vector<glm::vec3> lamp_strengths_of(const nlohmann::ordered_json& object, const TransferLayout& layout);
 /// Returns the strengths, [layout.lamps()]. Throws `Error` for a file that names no lamp of the layout, and
 /// for strengths that are negative or not finite.
 std::vector<glm::vec3> lamp_strengths(const LampChoice& lamps, const TransferLayout& layout);

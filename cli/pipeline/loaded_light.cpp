@@ -47,34 +47,50 @@ LoadedLight rotated(LoadedLight light, double angle) {
     return light;
 }
 
-LoadedLight load_light(const Path& path, int order, const SunCount& suns, const LightOptions& options,
-                       int threads) {
+namespace {
+
+/// Filters and rotates the light; without separate suns, all of it is in the sky.
+LoadedLight shown(LoadedLight light, bool separate, const LightOptions& options) {
+    light.combined = windowed(light.combined, options.window);
+    light.sky = separate ? windowed(light.sky, options.window) : light.combined;
+    if (const double rotation = glm::radians(options.rotation_degrees); rotation != 0)
+        light = rotated(std::move(light), rotation);
+    return light;
+}
+
+} // namespace
+
+LoadedLight light_of_environment(Environment image, int order, const SunCount& suns,
+                                 const LightOptions& options, int threads) {
     const bool separate = suns.count != 0;
     LoadedLight result;
-    result.name = path.filename().string();
-    std::optional<Environment> image;
+    if (separate) {
+        result.split = find_suns(image, {.order = order, .count = suns.count, .threads = threads});
+        result.sky = project(result.split.remainder, order, threads);
+    }
+    result.combined = project(image, order, threads);
+    result = shown(std::move(result), separate, options);
+    result.environment = std::move(image);
+    return result;
+}
+
+LoadedLight load_light(const Path& path, int order, const SunCount& suns, const LightOptions& options,
+                       int threads) {
+    LoadedLight result;
     if (suffix_of(path) == ".json") {
         LightFile file = read_light_file(path, order);
         result.combined = all_light(file);
-        if (separate) {
+        if (suns.count != 0) {
             result.sky = std::move(file.sky);
             result.split.suns = std::move(file.suns);
         }
+        result = shown(std::move(result), suns.count != 0, options);
     } else {
-        image = load_environment_map(path, options.environment, options.notify);
-        if (separate) {
-            result.split = about(path, [&] {
-                return find_suns(*image, {.order = order, .count = suns.count, .threads = threads});
-            });
-            result.sky = project(result.split.remainder, order, threads);
-        }
-        result.combined = about(path, [&] { return project(*image, order, threads); });
+        Environment image = load_environment_map(path, options.environment, options.notify);
+        result = about(path,
+                       [&] { return light_of_environment(std::move(image), order, suns, options, threads); });
     }
-    result.combined = windowed(result.combined, options.window);
-    result.sky = separate ? windowed(result.sky, options.window) : result.combined;
-    if (const double rotation = glm::radians(options.rotation_degrees); rotation != 0)
-        result = rotated(std::move(result), rotation);
-    result.environment = std::move(image);
+    result.name = path.filename().string();
     return result;
 }
 

@@ -48,6 +48,10 @@ std::vector<Sun> rotated(std::vector<Sun> suns, double angle);
 /// Returns the light rotated about +Y, as by `rotated_about_y`, without its image.
 LoadedLight rotated(LoadedLight light, double angle);
 
+/// Returns the light of an environment map, as `load_light` does for a file.
+LoadedLight light_of_environment(Environment image, int order, const SunCount& suns,
+                                 const LightOptions& options, int threads);
+
 /// Loads light from an environment map or a light file, windowed and rotated, with `order` bands. Separates
 /// suns from an environment map, or reads those of a light file; the default number for a light file is the
 /// number of suns in it. All are rotated as `options` requires. The window filters the rest only. With

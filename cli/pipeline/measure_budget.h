@@ -13,7 +13,7 @@ namespace prt::pipeline {
 /// Input of `add_budget`.
 struct BudgetRequest {
     Path baked;
-    FileSource shipped;     ///< empty if there is none
+    FileSource shipped;     ///< compressed file; empty: only the bake is measured
     ReadingOptions reading; ///< options for `shipped`
     BudgetLightOptions lights;
     std::vector<std::string> no_shadow; ///< materials that the bake let light through

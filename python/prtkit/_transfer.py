@@ -139,8 +139,8 @@ def compute_prt(
     """Return the transfer of the vertices of a mesh, [V, (order + 1)²], float64.
 
     vertices: [V, 3]; stay unsplit and in their order. faces: [F, 3], integers. n: n² directions over the
-    sphere, of which the half above the surface is traced. **order: the highest band**, as in PIFu's computePRT: 2 for 9 coefficients. normals: [V, 3]; None: weighted by the angles
-    of the faces. convention: a name in CONVENTIONS; "pifu" is the integral of visibility times the clamped cosine
+    sphere, of which the half above the surface is traced. **order: the highest band**, as in PIFu's computePRT:
+    2 for 9 coefficients. normals: [V, 3]; None: weighted by the angles of the faces. convention: a name in CONVENTIONS; "pifu" is the integral of visibility times the clamped cosine
     times the basis without phase, without 1/pi. directions: [D, 3], the same for all vertices, with equal weights,
     as PIFu traces them; None: stratified directions that differ between vertices, which have less noise. bounces:
     0 or more, math.inf for all; then albedo [V, 3], 0..1, is that of the surfaces (None: white), and the result is

@@ -294,7 +294,7 @@ def relight(
     suns = [
         (tuple(map(float, s.towards)), tuple(map(float, s.irradiance)), float(s.half_angle)) for s in sky.suns
     ]
-    return _prtkit.relight(lit, coefficients, suns, _strengths(lamps), rays, threads, progress)
+    return _prtkit.relight(lit, coefficients, suns, json.dumps(_strengths(lamps)), rays, threads, progress)
 
 
 def render(

@@ -78,13 +78,17 @@ py::array_t<float> viewed(std::span<const float> values, std::size_t rows, std::
     return array;
 }
 
+int order_of(std::size_t coefficients) {
+    for (int order = 1; order <= kMaxOrder; ++order)
+        if (static_cast<std::size_t>(coefficient_count(order)) == coefficients)
+            return order;
+    throw Error("the number of coefficients must be 1, 4, 9, ... or 100 (order²), not " +
+                std::to_string(coefficients));
+}
+
 Light light_of(const Floats& coefficients) {
     Light light{0, float_rows(coefficients, "the coefficients of a light")};
-    light.order = static_cast<int>(std::lround(std::sqrt(static_cast<double>(light.coefficients.size()))));
-    if (light.order < 1 || light.order > kMaxOrder ||
-        static_cast<std::size_t>(coefficient_count(light.order)) != light.coefficients.size())
-        throw Error("a light must have 1, 4, 9, ... or 100 coefficients (order² rows), not " +
-                    std::to_string(light.coefficients.size()));
+    light.order = order_of(light.coefficients.size());
     for (const glm::vec3& c : light.coefficients)
         if (!std::isfinite(c.x + c.y + c.z))
             throw Error("a coefficient of the light is not finite");

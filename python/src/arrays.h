@@ -39,6 +39,9 @@ py::array_t<float> copied(std::span<const glm::vec3> values);
 py::array_t<float> viewed(std::span<const float> values, std::size_t rows, std::size_t columns,
                           const py::object& owner);
 
+/// Returns the order of order² coefficients. Throws `Error` for another number, and above kMaxOrder.
+int order_of(std::size_t coefficients);
+
 /// Returns a light from coefficients [order²][3]. Throws `Error` for another shape, an order outside
 /// 1..kMaxOrder, and values that are not finite.
 Light light_of(const Floats& coefficients);

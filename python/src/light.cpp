@@ -3,7 +3,6 @@
 #include "python/src/light.h"
 
 #include "cli/pipeline/loaded_light.h"
-#include "prt/core/dering.h"
 #include "prt/core/error.h"
 #include "prt/core/sh.h"
 #include "prt/core/sh_rotation.h"
@@ -56,6 +55,12 @@ py::list suns_of(const std::vector<Sun>& suns) {
 }
 
 /// Returns the coefficients of the sky, those of sky and suns, the suns, and notices.
+py::tuple parts_of(const pipeline::LoadedLight& light, const std::vector<std::string>& notices) {
+    return py::make_tuple(copied(light.sky.coefficients), copied(light.combined.coefficients),
+                          suns_of(light.split.suns), notices);
+}
+
+/// Returns the `parts_of` the light of a file.
 py::tuple load_light(const pipeline::Path& path, int order, std::optional<int> suns, py::dict options,
                      int threads) {
     pipeline::LightOptions how = light_options_of(options);
@@ -70,8 +75,7 @@ py::tuple load_light(const pipeline::Path& path, int order, std::optional<int> s
         const py::gil_scoped_release release;
         light = pipeline::load_light(path, order, {suns}, how, threads);
     }
-    return py::make_tuple(copied(light.sky.coefficients), copied(light.combined.coefficients),
-                          suns_of(light.split.suns), notices);
+    return parts_of(light, notices);
 }
 
 /// Returns the environment of an image [height][width][3].
@@ -97,27 +101,14 @@ py::tuple light_of_image(const Floats& image, int order, std::optional<int> suns
                          int threads) {
     pipeline::LightOptions how;
     Environment environment = environment_of(image, options, how);
-    Light sky, combined;
-    SunSplit split;
+    pipeline::LoadedLight light;
     {
         const py::gil_scoped_release release;
         check_environment(environment);
         repair_pixels(environment.image, how.environment.bad_pixels);
-        const double angle = glm::radians(how.rotation_degrees);
-        const auto shown = [&](const Light& light) {
-            return windowed(rotated_about_y(light, angle), how.window);
-        };
-        combined = shown(project(environment, order, threads));
-        if (suns.value_or(1) > 0) {
-            split = find_suns(environment, {.order = order, .count = suns, .threads = threads});
-            sky = shown(project(split.remainder, order, threads));
-            split.suns = pipeline::rotated(split.suns, angle);
-        } else {
-            sky = combined;
-        }
+        light = light_of_environment(std::move(environment), order, {suns}, how, threads);
     }
-    return py::make_tuple(copied(sky.coefficients), copied(combined.coefficients), suns_of(split.suns),
-                          std::vector<std::string>());
+    return parts_of(light, {});
 }
 
 /// Returns the coefficients [order²][C], rotated by a matrix [3][3].
@@ -126,12 +117,7 @@ py::array_t<double> rotate(const Doubles& coefficients, const Doubles& rotation)
         throw Error("a rotation must have the shape (3, 3), not " + shape_in_words(rotation));
     if (coefficients.ndim() != 2)
         throw Error("coefficients must have the shape (order², C), not " + shape_in_words(coefficients));
-    int order = 1;
-    while (order < kMaxOrder && coefficient_count(order) < coefficients.shape(0))
-        ++order;
-    if (coefficient_count(order) != coefficients.shape(0))
-        throw Error("the number of coefficients must be 1, 4, 9, ... or 100 (order²), not " +
-                    std::to_string(coefficients.shape(0)));
+    const int order = order_of(static_cast<std::size_t>(coefficients.shape(0)));
     glm::dmat3 matrix;
     for (int row = 0; row < 3; ++row)
         for (int column = 0; column < 3; ++column)
@@ -180,9 +166,6 @@ void add_light(py::module_& module) {
     module.def("rotate", rotate);
     module.def("basis", basis);
     module.def("sun_light", sun_light);
-    module.def("deringed", [](const Floats& coefficients) {
-        return copied(windowed(light_of(coefficients), Window::automatic).coefficients);
-    });
 }
 
 } // namespace prt::python

@@ -251,7 +251,7 @@ prtkit.load and prtkit.from_arrays create models; prtkit.bake and prtkit.compres
         .def_property_readonly("content", content, "'scene', 'baked' or 'compressed'.")
         .def_property_readonly(
             "receivers", [](const Model& m) { return m.file.lightmap ? "texels" : "vertices"; },
-            "What has transfer: 'vertices' or 'texels'.")
+            "Kind of the receivers with transfer: 'vertices' or 'texels'.")
         .def_property_readonly(
             "order", [](const Model& m) { return m.file.order(); },
             "SH order of the transfer; 0: no transfer.")

@@ -24,7 +24,8 @@ struct Model {
     std::vector<std::string> notices; ///< about reading and making it
 
     pipeline::FileSource source() const { return {name, bytes}; }
-    /// Returns the raw or compressed transfer of the surfaces. Throws `Error` if there is none.
+    /// Returns the raw or compressed transfer of the surfaces. Throws `Error` for a model without
+    /// transfer.
     TransferView transfer() const;
 };
 

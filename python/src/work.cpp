@@ -320,74 +320,46 @@ std::string evaluate(const ModelPointer& baked, const ModelPointer& shipped, py:
         .dump();
 }
 
-/// Light for `relight`: the sky without the suns, and the suns.
-struct SkyAndSuns {
-    Light sky;
-    std::vector<Sun> suns;
-};
-
-Lighting lighting_of(const Model& model, const SkyAndSuns& light, const py::dict& strengths) {
-    const TransferLayout& layout = pipeline::layout_of(model.file);
-    Lighting lighting{.sky = light.sky};
-    if (!light.suns.empty())
-        lighting.suns = as_light(light.suns, light.sky.order);
-    lighting.lamps.assign(layout.lamps(), glm::vec3(1));
-    const auto value_of = [](const py::handle& value) {
-        if (py::isinstance<py::float_>(value) || py::isinstance<py::int_>(value))
-            return glm::vec3(value.cast<float>());
-        const auto rgb = value.cast<std::array<float, 3>>();
-        return glm::vec3(rgb[0], rgb[1], rgb[2]);
-    };
-    if (strengths.contains("*"))
-        std::ranges::fill(lighting.lamps, value_of(strengths["*"]));
-    for (const auto& [name, value] : strengths) {
-        const auto text = name.cast<std::string>();
-        if (text == "*")
-            continue;
-        const auto lamps = layout.lamp_terms();
-        const auto found = std::ranges::find(lamps, text, &TransferTerm::name);
-        if (found == lamps.end())
-            throw Error(model.name.string() + ": has no lamp '" + text + "'");
-        lighting.lamps[static_cast<std::size_t>(found - lamps.begin())] = value_of(value);
-    }
-    return lighting;
-}
-
-/// Returns exit radiance for albedo 1, [vertices][3] or [texels][3].
+/// Returns exit radiance for albedo 1, [vertices][3] or [texels][3]. `lamps`: strengths as a JSON object.
 py::array_t<float>
 relight(const Model& model, const Floats& sky,
         const std::vector<std::tuple<std::array<float, 3>, std::array<float, 3>, double>>& suns,
-        const py::dict& lamps, int rays, int threads, const py::object& progress) {
+        const std::string& lamps, int rays, int threads, const py::object& progress) {
     model.transfer(); // throws without transfer
-    SkyAndSuns light{light_of(sky), {}};
+    pipeline::LoadedLight light;
+    light.sky = light_of(sky);
     const int order = model.file.order();
     if (light.sky.order < order)
         throw Error("the light has order " + std::to_string(light.sky.order) + ", but the transfer of " +
                     model.name.string() + " has order " + std::to_string(order));
     light.sky = truncated(light.sky, order);
     for (const auto& [towards, irradiance, half_angle] : suns)
-        light.suns.push_back({{towards[0], towards[1], towards[2]},
-                              {irradiance[0], irradiance[1], irradiance[2]},
-                              half_angle});
+        light.split.suns.push_back({{towards[0], towards[1], towards[2]},
+                                    {irradiance[0], irradiance[1], irradiance[2]},
+                                    half_angle});
     const bool together = model.file.lightmap.has_value() || suns_stay_in_sky(model.file);
-    if (together && !light.suns.empty()) {
-        light.sky = sum(light.sky, as_light(light.suns, order));
-        light.suns.clear();
+    if (together && !light.split.suns.empty()) {
+        light.sky = sum(light.sky, as_light(light.split.suns, order));
+        light.split.suns.clear();
     }
-    const Lighting lighting = lighting_of(model, light, lamps);
+    Lighting lighting = lighting_of(light);
+    lighting.lamps = pipeline::about(model.name, [&] {
+        return pipeline::lamp_strengths_of(nlohmann::ordered_json::parse(lamps),
+                                           pipeline::layout_of(model.file));
+    });
     Call call(progress);
     const std::vector<glm::vec3> radiance = call.run([&] {
         if (model.file.lightmap)
             return model.file.compressed ? exit_radiance(model.file.compressed->transfer, lighting, threads)
                                          : exit_radiance(model.file.baked->transfer, lighting, threads);
         std::vector<glm::vec3> lit = lit_vertices(model.file, lighting, threads);
-        if (light.suns.empty())
+        if (light.split.suns.empty())
             return lit;
         const TraceScene scene(
             model.file.scene,
             load_textures(model.file.scene, model.reading.bad_textures, TextureNeeds::shadows),
             {.solid = pipeline::solid_materials(model.file.scene), .threads = threads});
-        pipeline::add_direct_suns(scene, light.suns, {.rays = rays, .threads = threads},
+        pipeline::add_direct_suns(scene, light.split.suns, {.rays = rays, .threads = threads},
                                   call.progress("suns"), lit);
         return lit;
     });
